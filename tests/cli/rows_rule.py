@@ -6,6 +6,7 @@ from fractions import Fraction
 
 MARGIN = 1e-9
 REACH, ANGLE, STRAIGHT, SHARED, DEPTHS, LEAST = 4, 15, 0.1, 0.5, 2.5, 3
+STEP, STEP_GAPS = 0.4, 2  # of the smaller depth; in gaps
 
 
 class Undecided(Exception):
@@ -33,6 +34,13 @@ class House:
         self.box = [min(p[0] for p in self.corners), min(p[1] for p in self.corners), max(p[0] for p in self.corners),
                     max(p[1] for p in self.corners)]
         self.walls, self.length = walls_of(self.edges)
+
+
+class Block:
+    """A body: all corners of its houses."""
+
+    def __init__(self, houses):
+        self.corners = [p for h in houses for p in h.corners]
 
 
 def walls_of(edges):
@@ -97,20 +105,17 @@ def off_box(segment, box):
 
 
 class Near:
-    """Two houses: their distance and their shortest links (the two outermost ones if there are many)."""
+    """Two houses, and their distance."""
 
     def __init__(self, f, g, p, q, reach):
         self.f, self.g, self.p, self.q = f, g, p, q
-        self.distance, self.links = math.inf, []
+        self.distance = math.inf
         off = off_box((p.box[:2], p.box[2:]), q.box)
         if off > reach + 1:
             return
-        links = []
         for e in p.edges:
             if off_box(e, q.box) <= self.distance + 1:
-                links += [(math.dist(*k), k) for d in q.edges for k in links_of_edges(e, d)]
-                self.distance = min(links)[0]
-        self.links = [k for length, k in links if length <= self.distance + 10 * MARGIN]
+                self.distance = min(self.distance, *(math.dist(*k) for d in q.edges for k in links_of_edges(e, d)))
         if off > 0:
             return
         if any(cross(e, d) for e in p.edges for d in q.edges):
@@ -139,8 +144,8 @@ class Near:
         raise Undecided
 
 
-def extent(house, axis):
-    at = [x * axis[0] + y * axis[1] for x, y in house.corners]
+def extent(block, axis):
+    at = [x * axis[0] + y * axis[1] for x, y in block.corners]
     return min(at), max(at)
 
 
@@ -148,8 +153,9 @@ def apart(e, f):
     return max(e[0] - f[1], f[0] - e[1])
 
 
-def stand_side_by_side(p, q, gap):
-    """None: not neighbours; else the direction towards q, as a unit vector, and the offset."""
+def stand_side_by_side(p, q, blocks, gap):
+    """None: not neighbours; else the direction towards q, as a unit vector, the offset, and the link along the row. p, q: the nearest
+    houses of the two blocks, whose walls have that direction."""
     share = [at_most(h.length * STRAIGHT, abs(h.walls)) for h in (p, q)]
     if False in share:
         return None
@@ -161,7 +167,7 @@ def stand_side_by_side(p, q, gap):
         return None
     direction = cmath.rect(1, cmath.phase(u + v) / 4)
     axes = [(direction.real, direction.imag), (-direction.imag, direction.real)]
-    stand = [[extent(h, axis) for h in (p, q)] for axis in axes]
+    stand = [[extent(block, axis) for block in blocks] for axis in axes]
     separation = [apart(*s) for s in stand]
     one = [judge(axes[k], stand[k], stand[1 - k], (1, -1)[k], gap) for k in (0, 1)]
     if abs(separation[0] - separation[1]) <= MARGIN:
@@ -182,15 +188,19 @@ def judge(axis, along, across, left, gap):
     depths = sorted(b - a for a, b in across)
     if sum(along[0]) > sum(along[1]):
         axis, left = (-axis[0], -axis[1]), -left
+        along = [(-b, -a) for a, b in along]
     low, high = across[1][0] - across[0][0], across[1][1] - across[0][1]
     offsets = sorted([low, high, (low + high) / 2], key=abs)
     answer = all_of(at_most(-SHARED * shorter[0], apart(*along)), at_most(apart(*across), -SHARED * shorter[1]),
-                    at_most(depths[1], DEPTHS * depths[0]), at_most(abs(offsets[0]), gap))
+                    at_most(depths[1], DEPTHS * depths[0]), at_most(abs(offsets[0]), STEP * depths[0]),
+                    at_most(abs(offsets[0]), STEP_GAPS * gap))
     if answer is False:
         return None
     if answer is None or abs(abs(offsets[0]) - abs(offsets[1])) <= MARGIN < abs(offsets[0] - offsets[1]):
         return "open"
-    return axis, left * offsets[0]
+    middle = left * (max(e[0] for e in across) + min(e[1] for e in across)) / 2
+    link = [(at * axis[0] - middle * axis[1], at * axis[1] + middle * axis[0]) for at in (along[0][1], along[1][0])]
+    return axis, left * offsets[0], link
 
 
 class Edge:
@@ -206,21 +216,11 @@ class Edge:
         return self.j if body == self.i else self.i
 
 
-def is_crossed(near, lines):
-    """Does a line of a barrier cross the shortest link?"""
-    if near.distance == 0:
-        return False
-    first, last = min(near.links), max(near.links)
-    links = [first, last] + [tuple(tuple(a[c] + (b[c] - a[c]) * k / 8 for c in (0, 1)) for a, b in zip(first, last))
-                             for k in range(1, 8)]
-    links += near.links
-    answers = {any_of(cross(k, line) for line in lines) for k in links}
-    hull = [first[0], first[1], last[1], last[0]]
-    if answers == {False} and any(cross((hull[k - 1], hull[k]), line) is not False for line in lines for k in range(4)):
-        raise Undecided
-    if len(answers) > 1 or None in answers:
-        raise Undecided
-    return answers == {True}
+def is_crossed(link, lines):
+    """Does a line of a barrier cross the link?"""
+    box = [f(p[c] for p in link) for f, c in ((min, 0), (min, 1), (max, 0), (max, 1))]
+    near = [e for e in lines if all(min(p[c] for p in e) <= box[c + 2] + 1 and max(p[c] for p in e) >= box[c] - 1 for c in (0, 1))]
+    return any_of(cross(link, line) for line in near)
 
 
 def any_of(answers):
@@ -243,16 +243,16 @@ def stand_alone(pair, near, distance, bodies):
     return {True: False, None: None, False: True}[any_of(between)]
 
 
-def made_edge(i, j, near, houses, lines, gap):
+def made_edge(i, j, near, houses, blocks, lines, gap):
     """The edge; False: the two are not side by side; None: undecided."""
     try:
-        found = stand_side_by_side(houses[near.f], houses[near.g], gap)
+        found = stand_side_by_side(houses[near.f], houses[near.g], blocks, gap)
     except Undecided:
-        return False if tried(is_crossed, near, lines) else None
+        return None
     if found is None:
         return False
-    crossed = tried(is_crossed, near, lines)
-    return None if crossed is None else False if crossed else Edge(i, j, near, *found)
+    crossed = is_crossed(found[2], lines)
+    return None if crossed is None else False if crossed else Edge(i, j, near, *found[:2])
 
 
 def edges_of(bodies, houses, lines, gap):
@@ -266,13 +266,14 @@ def edges_of(bodies, houses, lines, gap):
             if least <= reach + 1:
                 nearest[i, j] = nearest[j, i] = [n for n in nears if n.distance <= least + MARGIN]
     distance = {pair: nears[0] for pair, nears in nearest.items()}
+    block = [Block([houses[f] for f in body]) for body in bodies]
     edges = []
     for (i, j), nears in nearest.items():
         alone = i < j and at_most(nears[0].distance, reach) and stand_alone((i, j), nears[0], distance, range(len(bodies)))
         if alone is False:
             continue
         # If several members of a block are equally near, the choice makes no difference as long as none makes an edge.
-        made = [made_edge(i, j, n, houses, lines, gap) for n in nears]
+        made = [made_edge(i, j, n, houses, (block[i], block[j]), lines, gap) for n in nears]
         if set(made) == {False}:
             continue
         if alone is None or None in made or len(made) > 1:

@@ -81,7 +81,7 @@ class Rows:
             local = {(b, k): distance[b, k] for b in pair for k in third}
             alone = rule.all_of(rule.at_most(nears[0].distance, reach),
                                 rule.stand_alone(pair, nears[0], {**local, **{(b, a): d for (a, b), d in local.items()}}, third))
-            made = [] if alone is False else [rule.made_edge(*pair, n, self.house, self.lines_near(n), self.gap) for n in nears]
+            made = [] if alone is False else [self.made_edge(pair, n) for n in nears]
             found += [Candidate(pair, n, alone is True and len(made) == 1 and m is not None)
                       for n, m in zip(nears, made) if m is not False]
         return found
@@ -98,13 +98,18 @@ class Rows:
                 if other[1] <= box[3] + reach + 1 and box[1] <= other[3] + reach + 1:
                     yield sorted((f, g), key=self.problem.place.get)
 
-    def lines_near(self, near):
-        box = [f(p[c] for link in near.links for p in link) for f, c in ((min, 0), (min, 1), (max, 0), (max, 1))]
-        return [e for e in self.lines if all(min(p[c] for p in e) <= box[c + 2] + 1 and max(p[c] for p in e) >= box[c] - 1 for c in (0, 1))]
+    def made_edge(self, pair, near):
+        return rule.made_edge(*pair, near, self.house, self.blocks_of(near.f, near.g), self.lines, self.gap)
+
+    def blocks_of(self, *fids):
+        return [rule.Block([self.house[fid] for fid in self.problem.block(k)]) for k in fids]
+
+    def axes_of(self, f, g):
+        return axes_of(self.house[f], self.house[g], self.blocks_of(f, g))
 
     def side(self, c, body):
         """The side of the body that faces the other one; None where it is undecided."""
-        towards = axes_of(self.house[c.near.f], self.house[c.near.g])
+        towards = self.axes_of(c.near.f, c.near.g)
         from_f = self.problem.block(c.near.f) == self.bodies[body]
         sides = {rule.tried(rule.side_of, self.bodies[body], self.house, (x, y) if from_f else (-x, -y)) for x, y in towards}
         return sides.pop() if len(sides) == 1 else None
@@ -138,7 +143,7 @@ class Rows:
     def demand_direction(self, line, found):
         """The direction is that of their walls, and the separation that of the two blocks along it."""
         a, b, along = line["a"], line["b"], tuple(map(Fraction, line["along"]))
-        axes = axes_of(self.house[a], self.house[b])
+        axes = self.axes_of(a, b)
         demand(any(max(abs(v - Fraction(w)) for v, w in zip(along, axis)) <= ALIKE for axis in axes) and
                abs(along[0] ** 2 + along[1] ** 2 - 1) <= ALIKE, "that is not the direction of the row:", a, b)
         sides = [[(Fraction(p[0]) - self.origin[0]) * along[0] + (Fraction(p[1]) - self.origin[1]) * along[1]
@@ -196,14 +201,14 @@ def has_next(c, others, opposite):
     return any(d is not c and b in (d.i, d.j) and opposite(c.sides[b], d.sides[b]) for b in (c.i, c.j) for d in others)
 
 
-def axes_of(p, q):
-    """The directions from p to q that a row may have there."""
+def axes_of(p, q, blocks):
+    """The directions from p to q that a row may have there. blocks: those of p and q"""
     u, v = (h.walls / abs(h.walls) if h.walls else 0 for h in (p, q))
     if not u + v:
         return []
     direction = cmath.rect(1, cmath.phase(u + v) / 4)
     axes = [(direction.real, direction.imag), (-direction.imag, direction.real)]
-    stand = [[rule.extent(h, axis) for h in (p, q)] for axis in axes]
+    stand = [[rule.extent(block, axis) for block in blocks] for axis in axes]
     apart = [rule.apart(*s) for s in stand]
     return [(sign * x, sign * y) for k, (x, y) in enumerate(axes) if apart[k] >= max(apart) - rule.MARGIN
             for sign in (1, -1) if sign * (sum(stand[k][1]) - sum(stand[k][0])) >= -rule.MARGIN]

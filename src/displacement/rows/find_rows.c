@@ -27,6 +27,16 @@ typedef struct row_search {
 
 /* ---- Edges ------------------------------------------------------------------------------------------------------- */
 
+/* Joins the link of the pair, where a barrier decides, to the surroundings of the two. */
+static void join_link(row_search *s, const sunder_i_row_pair *pair, double link[2][2])
+{
+    for (int k = 0; k < 2 && s->about; k++) {
+        const double end[4] = {link[k][0], link[k][1], link[k][0], link[k][1]};
+        sunder_i_box_join(s->about[pair->i], end);
+        sunder_i_box_join(s->about[pair->j], end);
+    }
+}
+
 /* Lists the pairs that stand side by side, with no line of a barrier between them. Returns false if the work is to
  * stop, as the other functions that return a bool do, also if memory is out. */
 static bool list_edges(row_search *s)
@@ -38,10 +48,12 @@ static bool list_edges(row_search *s)
     if (!s->edge || !s->distance) return false;
     for (size_t k = 0; k < s->pairs.n && ok; k++) {
         const sunder_i_row_pair *pair = &s->pairs.pair[k];
+        double link[2][2];
         bool crossed = false;
         ok = sunder_i_step();
-        if (!ok || !sunder_i_row_side_by_side(s->model, s->walls, pair, &s->edge[s->edges])) continue;
-        ok = sunder_i_row_link_is_crossed(s->model, pair, &near, &crossed);
+        if (!ok || !sunder_i_row_side_by_side(s->model, s->walls, pair, &s->edge[s->edges], link)) continue;
+        join_link(s, pair, link);
+        ok = sunder_i_row_link_is_crossed(s->model, link, &near, &crossed);
         if (!crossed) s->distance[s->edges++] = pair->distance;
     }
     sunder_i_free(near.item);

@@ -78,13 +78,14 @@ static int by_distance(const void *x, const void *y)
 static bool join_pair(joining *s, const sunder_i_row_pair *pair, sunder_i_list *near)
 {
     sunder_i_rows_wanted *w = &s->among;
+    double link[2][2];
     bool crossed;
     if (w->joined[pair->i] == 2 || w->joined[pair->j] == 2 ||
         sunder_i_union_find(w->path, pair->i) == sunder_i_union_find(w->path, pair->j))
         return sunder_i_step();
-    if (!sunder_i_row_link_is_crossed(s->model, pair, near, &crossed)) return false;
     sunder_i_row_edge *edge = &s->edge[s->edges];
-    sunder_i_row_join(s->model, s->walls, pair, edge);
+    sunder_i_row_join(s->model, s->walls, pair, edge, link);
+    if (!sunder_i_row_link_is_crossed(s->model, link, near, &crossed)) return false;
     /* A barrier's line between two bodies keeps them in order; they have springs, and no rule. */
     if (crossed) edge->apart = sunder_i_min(edge->apart, 0);
     s->at[pair->i][w->joined[pair->i]++] = (uint32_t)s->edges;

@@ -58,19 +58,20 @@ bool sunder_i_row_pairs_thin_out(sunder_i_row_pairs *pairs, size_t bodies);
 
 /* ---- side_by_side.c ---------------------------------------------------------------------------------------------- */
 
-/* Returns whether the two stand side by side, as neighbours in a row do, and if so sets *edge. walls: [features] */
+/* Returns whether the two stand side by side, as neighbours in a row do, and if so sets *edge, and link[] to the ends
+ * of a segment from one to the other along the row. It depends on the two point sets alone, as their shortest link does
+ * not if they have parallel walls. walls: [features] */
 bool sunder_i_row_side_by_side(const sunder_i_model *model, const sunder_i_walls *walls, const sunder_i_row_pair *pair,
-                               sunder_i_row_edge *edge);
-/* Sets *edge to the edge of two bodies that are in a row anyway. If their walls have no common direction, that of the
- * link is taken. */
+                               sunder_i_row_edge *edge, double link[2][2]);
+/* Sets *edge and link[] likewise for two bodies that are in a row anyway. If their walls have no common direction, that
+ * of their shortest link is taken. */
 void sunder_i_row_join(const sunder_i_model *model, const sunder_i_walls *walls, const sunder_i_row_pair *pair,
-                       sunder_i_row_edge *edge);
+                       sunder_i_row_edge *edge, double link[2][2]);
 
 /* ---- row_links.c ------------------------------------------------------------------------------------------------- */
 
-/* Sets *crossed to whether the link of the pair meets a line, or the boundary of an area, of a barrier. Returns false
- * if memory is out. */
-bool sunder_i_row_link_is_crossed(const sunder_i_model *model, const sunder_i_row_pair *pair, sunder_i_list *near,
-                                  bool *crossed);
+/* Sets *crossed to whether the link meets a line, or the boundary of an area, of a barrier. Returns false if memory is
+ * out. */
+bool sunder_i_row_link_is_crossed(const sunder_i_model *model, double link[2][2], sunder_i_list *near, bool *crossed);
 
 #endif

@@ -12,7 +12,7 @@ typedef struct sunder_i_row_edge {
     uint32_t side[2]; /* the sides of i and of j at which the edge is; a row leaves a body at side `side ^ 2` */
     double along[2];  /* a unit vector: the mean direction of the walls of f and g, towards j */
     double apart;     /* the separation of the two whole bodies along it; negative: they overlap there */
-    double offset;    /* by how much g is to the left of f, seen along the row: at the front, the back or the middle,
+    double offset;    /* by how much j is to the left of i, seen along the row: at the front, the back or the middle,
                        * whichever is the least */
 } sunder_i_row_edge;
 

@@ -23,27 +23,21 @@ static void include_shape(const sunder_shape *shape, const double axis[2], const
     }
 }
 
-static extent extent_of_body(const sunder_i_model *model, uint32_t body, const double axis[2], const double origin[2])
-{
-    const sunder_i_body *b = &model->body[body];
-    extent e = {INFINITY, -INFINITY};
-    for (uint32_t m = b->member; m < b->member + b->members; m++)
-        if (model->present[model->member[m]])
-            include_shape(sunder_i_thing_shape(model, model->member[m]), axis, origin, &e);
-    return e;
-}
-
-/* The extents of a feature along a row and across it. */
+/* The extents of a body along a row and across it. */
 typedef struct stand {
     extent along, across;
 } stand;
 
-static stand stand_of(const sunder_shape *shape, const double along[2], const double origin[2])
+static stand stand_of(const sunder_i_model *model, uint32_t body, const double along[2], const double origin[2])
 {
+    const sunder_i_body *b = &model->body[body];
     const double across[2] = {-along[1], along[0]};
     stand s = {{INFINITY, -INFINITY}, {INFINITY, -INFINITY}};
-    include_shape(shape, along, origin, &s.along);
-    include_shape(shape, across, origin, &s.across);
+    for (uint32_t m = b->member; m < b->member + b->members; m++) {
+        if (!model->present[model->member[m]]) continue;
+        include_shape(sunder_i_thing_shape(model, model->member[m]), along, origin, &s.along);
+        include_shape(sunder_i_thing_shape(model, model->member[m]), across, origin, &s.across);
+    }
     return s;
 }
 
@@ -71,30 +65,42 @@ static bool are_of_one_depth(const extent *e, const extent *f)
     return length_of(e) <= ROW_DEPTHS * length_of(f) && length_of(f) <= ROW_DEPTHS * length_of(e);
 }
 
-/* Turns the axis of the walls so that f and g stand farther apart along it than at right angles to it, and towards g,
- * and sets their extents along it and across it. */
-static void choose_axis(const sunder_shape *const shape[2], const double origin[2], double along[2], stand s[2])
+/* Turns the axis of the walls so that the bodies stand farther apart along it than at right angles to it, and towards
+ * the second one, and sets their extents along it and across it. */
+static void choose_axis(const sunder_i_model *model, const uint32_t body[2], const double origin[2], double along[2],
+                        stand s[2])
 {
-    for (int k = 0; k < 2; k++) s[k] = stand_of(shape[k], along, origin);
+    for (int k = 0; k < 2; k++) s[k] = stand_of(model, body[k], along, origin);
     const bool turned = apart(&s[0].across, &s[1].across) > apart(&s[0].along, &s[1].along);
     const extent *e = turned ? &s[0].across : &s[0].along, *f = turned ? &s[1].across : &s[1].along;
     const double sign = f->from + f->to < e->from + e->to ? -1 : 1, x = along[0];
     along[0] = sign * (turned ? -along[1] : x);
     along[1] = sign * (turned ? x : along[1]);
-    for (int k = 0; k < 2; k++) s[k] = stand_of(shape[k], along, origin);
+    for (int k = 0; k < 2; k++) s[k] = stand_of(model, body[k], along, origin);
 }
 
-/* Sets the edge along the axis edge->along, which it turns, and the extents of f and g. */
-static void measure_edge(const sunder_i_model *model, const sunder_i_row_pair *pair, sunder_i_row_edge *edge,
-                         stand s[2])
+/* Sets link[] to the segment between the two that runs along the row, in the middle of what they share across it. */
+static void find_link(const stand s[2], const double along[2], const double origin[2], double link[2][2])
 {
-    const sunder_shape *shape[2] = {sunder_i_thing_shape(model, pair->f), sunder_i_thing_shape(model, pair->g)};
-    const double *origin = shape[0]->box;
-    choose_axis(shape, origin, edge->along, s);
+    const double across =
+                     (sunder_i_max(s[0].across.from, s[1].across.from) + sunder_i_min(s[0].across.to, s[1].across.to)) /
+                     2,
+                 at[2] = {s[0].along.to, s[1].along.from};
+    for (int k = 0; k < 2; k++) {
+        link[k][0] = origin[0] + at[k] * along[0] - across * along[1];
+        link[k][1] = origin[1] + at[k] * along[1] + across * along[0];
+    }
+}
+
+/* Sets the edge along the axis edge->along, which it turns, the extents of the bodies, and the link between them. */
+static void measure_edge(const sunder_i_model *model, sunder_i_row_edge *edge, stand s[2], double link[2][2])
+{
+    const uint32_t body[2] = {edge->i, edge->j};
+    const double *origin = sunder_i_thing_shape(model, edge->f)->box;
+    choose_axis(model, body, origin, edge->along, s);
     edge->offset = offset_of(&s[0].across, &s[1].across);
-    const extent i = extent_of_body(model, pair->i, edge->along, origin),
-                 j = extent_of_body(model, pair->j, edge->along, origin);
-    edge->apart = j.from - i.to;
+    edge->apart = s[1].along.from - s[0].along.to;
+    find_link(s, edge->along, origin, link);
 }
 
 static sunder_i_row_edge edge_of_pair(const sunder_i_row_pair *pair)
@@ -102,18 +108,25 @@ static sunder_i_row_edge edge_of_pair(const sunder_i_row_pair *pair)
     return (sunder_i_row_edge){.i = pair->i, .j = pair->j, .f = pair->f, .g = pair->g};
 }
 
+/* Are two bodies with this offset in line? */
+static bool are_in_line(const stand s[2], double offset, double gap)
+{
+    const double depth = sunder_i_min(length_of(&s[0].across), length_of(&s[1].across));
+    return fabs(offset) <= sunder_i_min(ROW_STEP * depth, ROW_STEP_GAPS * gap);
+}
+
 bool sunder_i_row_side_by_side(const sunder_i_model *model, const sunder_i_walls *walls, const sunder_i_row_pair *pair,
-                               sunder_i_row_edge *edge)
+                               sunder_i_row_edge *edge, double link[2][2])
 {
     sunder_i_walls mean;
     stand s[2];
     *edge = edge_of_pair(pair);
     if (!sunder_i_walls_mean(&walls[pair->f], &walls[pair->g], &mean)) return false;
     sunder_i_walls_axis(&mean, edge->along);
-    measure_edge(model, pair, edge, s);
+    measure_edge(model, edge, s, link);
     return apart_by_length(&s[0].along, &s[1].along) >= -ROW_SHARED &&
-           apart_by_length(&s[0].across, &s[1].across) <= -ROW_SHARED &&
-           are_of_one_depth(&s[0].across, &s[1].across) && fabs(edge->offset) <= model->rules.gap;
+           apart_by_length(&s[0].across, &s[1].across) <= -ROW_SHARED && are_of_one_depth(&s[0].across, &s[1].across) &&
+           are_in_line(s, edge->offset, model->rules.gap);
 }
 
 /* Sets the axis to the direction of the link, or to the x-axis if the two touch. */
@@ -125,7 +138,7 @@ static void take_link(const sunder_i_row_pair *pair, double along[2])
 }
 
 void sunder_i_row_join(const sunder_i_model *model, const sunder_i_walls *walls, const sunder_i_row_pair *pair,
-                       sunder_i_row_edge *edge)
+                       sunder_i_row_edge *edge, double link[2][2])
 {
     sunder_i_walls mean = {{0, 0}, 0};
     stand s[2];
@@ -135,5 +148,5 @@ void sunder_i_row_join(const sunder_i_model *model, const sunder_i_walls *walls,
         sunder_i_walls_axis(&mean, edge->along);
     else
         take_link(pair, edge->along);
-    measure_edge(model, pair, edge, s);
+    measure_edge(model, edge, s, link);
 }
