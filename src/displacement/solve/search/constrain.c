@@ -40,6 +40,7 @@ static void constrain_pieces(sunder_i_search *s, const sunder_i_piece_pair *pair
     if (look_up(at->known, at->known_n, pair->key)) return;
     double gap;
     size_t n;
+    if (sunder_i_search_is_clear(s, pair, at->near, at->reach + s->gap)) return;
     const sunder_i_obstacle_edge *edge = sunder_i_search_edges(s, pair, &n, &gap);
     if (!edge) return;
     sunder_i_support h = sunder_i_search_support(pair, edge, n, at->near);

@@ -370,6 +370,25 @@ size_t sunder_i_search_obstacle(sunder_i_search *search, const sunder_i_piece_pa
     return n;
 }
 
+bool sunder_i_search_is_clear(sunder_i_search *search, const sunder_i_piece_pair *pair, const double u[2],
+                              double distance)
+{
+    const double *p = pair->a->box, *q = pair->b->box;
+    double shift[2], most = 0, apart = -INFINITY;
+    if (!pair->relaxation) return false;
+    distance += sunder_i_relaxation_shift(pair->relaxation, pair->b->feature, shift);
+    for (int c = 0; c < 2; c++) {
+        const double v = pair->offset[c] + u[c] + shift[c];
+        apart = sunder_i_max(apart, sunder_i_max(q[c] + v - p[c + 2], p[c] - (q[c + 2] + v)));
+        most = sunder_i_max(most, fabs(pair->offset[c]) + fabs(u[c]) + fabs(shift[c]));
+        most = sunder_i_max(most, sunder_i_max(fabs(p[c]) + fabs(p[c + 2]), fabs(q[c]) + fabs(q[c + 2])));
+    }
+    if (!(apart - distance > 0x1p-46 * (most + distance))) return false;
+    search->steps++;
+    if (!sunder_i_steps(1 + (pair->a->corners + pair->b->corners) / 8)) search->failed = true;
+    return true;
+}
+
 /* ---- What they miss ---------------------------------------------------------------------------------------------- */
 
 typedef struct missing {
@@ -382,6 +401,7 @@ static void measure_pieces(sunder_i_search *s, const sunder_i_piece_pair *pair, 
     missing *m = context;
     double gap;
     size_t n;
+    if (sunder_i_search_is_clear(s, pair, m->u, 0)) return;
     const sunder_i_obstacle_edge *edge = sunder_i_search_edges(s, pair, &n, &gap);
     if (edge) m->worst = sunder_i_max(m->worst, gap - sunder_i_search_support(pair, edge, n, m->u).distance);
 }
