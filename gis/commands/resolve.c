@@ -127,12 +127,6 @@ static bool resolve_rows(const gis_options *options, gis_layer_rules *out, gis_e
     return gis_fail_usage(error, "--rows: rows are found among polygons, and the symbols of points have none");
 }
 
-bool gis_resolve_rows_in_parts(const gis_layer_rules *rules, gis_error *error)
-{
-    return rules->core.rows != SUNDER_ROWS_GIVEN ||
-           gis_fail_usage(error, "--rows FIELD needs the whole layer in memory: neither plan nor --max-memory");
-}
-
 /* Reads K or K,K_ALONG; K alone keeps the default along rows. */
 static bool resolve_stiffness(const gis_options *options, double stiffness[2], gis_error *error)
 {

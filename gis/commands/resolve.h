@@ -45,7 +45,4 @@ gis_progress gis_resolve_progress(const gis_options *options);
 /* How errors and warnings are printed. A log file that is also another file of the call is a usage error. */
 bool gis_resolve_messages(const gis_options *options, gis_messages_request *out, gis_error *error);
 
-/* Fails if the rows that are wanted need the whole layer in memory; called for a layer in parts. */
-bool gis_resolve_rows_in_parts(const gis_layer_rules *rules, gis_error *error);
-
 #endif

@@ -9,7 +9,7 @@
  * the values of --id-field, --block-field, --max-shift-field, --weight-field, --symbol-field and --symbol-size-field.
  * Each is continued from feature to feature, so the size of batches does not matter. A zeroed struct covers no
  * features. */
-enum { GIS_LAYER_CHECKSUMS = 9 };
+enum { GIS_LAYER_CHECKSUMS = 10 };
 typedef struct gis_layer_checksums {
     uint64_t of[GIS_LAYER_CHECKSUMS];
 } gis_layer_checksums;

@@ -103,6 +103,8 @@ bool gis_layer_rows(gis_layer_input *input, gis_error *error);
 
 /* Numbers blocks in the order of first appearance; they are ranked when all keys are known. */
 bool gis_layer_number_blocks(gis_layer_input *input, gis_block_keys *keys, gis_error *error);
+/* Numbers the rows of --rows FIELD likewise, in input->row; their numbers stay. */
+bool gis_layer_number_rows(gis_layer_input *input, gis_block_keys *keys, gis_error *error);
 /* The steps of weighting, which layer_spooling.c needs separately: the median of all areas (sorts them), the weight of
  * an area relative to the median, and the factor from a field. */
 double gis_layer_median(double *areas, size_t n);

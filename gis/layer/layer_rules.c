@@ -86,10 +86,9 @@ bool gis_layer_blocks(gis_layer_input *input, gis_error *error)
     return done;
 }
 
-bool gis_layer_rows(gis_layer_input *input, gis_error *error)
+bool gis_layer_number_rows(gis_layer_input *input, gis_block_keys *keys, gis_error *error)
 {
     const int field = input->rows_field;
-    gis_block_keys keys = {0};
     if (field < 0) return true;
     input->row = malloc((input->n + 1) * sizeof *input->row);
     bool ok = input->row != NULL || gis_no_memory(error);
@@ -98,10 +97,17 @@ bool gis_layer_rows(gis_layer_input *input, gis_error *error)
         input->row[i] = -1;
         if (gis_field_is_blank(feature, field)) continue;
         char *key = gis_field_key(feature, field);
-        ok = key ? gis_block_keys_add(&keys, key, &input->row[i], error) : gis_no_memory(error);
+        ok = key ? gis_block_keys_add(keys, key, &input->row[i], error) : gis_no_memory(error);
     }
-    gis_block_keys_clear(&keys);
     return ok;
+}
+
+bool gis_layer_rows(gis_layer_input *input, gis_error *error)
+{
+    gis_block_keys keys = {0};
+    const bool done = gis_layer_number_rows(input, &keys, error);
+    gis_block_keys_clear(&keys);
+    return done;
 }
 
 bool gis_layer_wrong_number(const gis_layer_input *input, size_t i, int field, const char *what, const char *needed,

@@ -5,7 +5,7 @@
 for tool in python3 jq; do command -v $tool >/dev/null || { echo "skipped: $tool is not installed"; exit 77; }; done
 python3 "$SUNDER_SOURCE/tests/cli/shard_layouts.py" . || fail "no layouts"
 
-# Writes LAYOUT.ORDER.geojson for each order, with FIDs of the first one and a street for each of the houses.
+# Writes LAYOUT.ORDER.geojson for each order, with the FIDs of the first one.
 python3 - streets clusters <<'PYTHON' || fail "no other orders"
 import json, random, sys
 for name in sys.argv[1:]:
@@ -13,7 +13,6 @@ for name in sys.argv[1:]:
         layer = json.load(file)
     for number, feature in enumerate(layer['features']):
         feature['id'] = number
-        feature['properties']['street'] = f'street {number // 45}' if number % 17 else None
     shuffled = layer['features'][:]
     random.Random(7).shuffle(shuffled)
     for order, features in (('given', layer['features']), ('turned', layer['features'][::-1]), ('shuffled', shuffled)):

@@ -56,6 +56,9 @@ expect 0 separate terrace.gpkg t.gpkg --gap 3 --rows street --stats t.json
 } | layer torn.gpkg torn POLYGON
 expect 1 separate torn.gpkg x.gpkg --gap 3 --rows street
 grep -q 'FID 2: --rows: its row is not that of another feature of its block' err || fail "two rows in a block: $(cat err)"
+cp err whole.err
+expect 1 separate torn.gpkg x.gpkg --gap 3 --rows street --max-memory 1G
+cmp whole.err err || fail "in parts: $(cat err)"
 expect 0 separate torn.gpkg split.gpkg --gap 3 --rows street --no-blocks
 
 # A barrier's line between two neighbours: the springs act, and there is no rule of order.

@@ -16,8 +16,8 @@ order() { seq 1 2 "$1" | tac; seq 2 2 "$1"; }
 alike() {
     local name=$1 shards=$2 n k wanted=0 of_whole=(--proof whole.jsonl) of_parts=(--proof parts.jsonl)
     shift 2
-    # There is no proof of eased pairs.
-    case " $* " in *' --ease '*) of_whole=() of_parts=() ;; esac
+    # There is no proof of eased pairs, nor of rows of a field.
+    case " $* " in *' --ease '* | *' --rows street '*) of_whole=() of_parts=() ;; esac
     [ -e "$name.gpkg" ] || ogr2ogr -q "$name.gpkg" "$name.geojson" -nln houses || fail "$name.gpkg"
     rm -rf whole parts plan-*
     mkdir whole parts
@@ -56,6 +56,12 @@ cp whole.json streets.json
 alike streets '5' --gap 3 --effort 0 --rows auto --row-stiffness 10,1 --block-field blk --max-shift 20
 alike streets '4' --gap 2 --effort 0 --rows auto --max-shift 6 --barrier line.geojson,width-field=width,gap=0.5
 alike clusters '3' --gap 2 --effort 0.05 --rows auto --no-blocks
+# Rows of a field, with blocks of far members, and among roads.
+alike streets '2 7' --gap 2 --effort 0 --rows street --max-shift 20 --ease 5 --block-field ends
+cp whole.json given.json
+alike clusters '5' --gap 2 --effort 0 --rows street --no-blocks --barrier line.geojson,width-field=width,gap=0.5
+jq -e '.rows.rows >= 8 and .rows.features > 200 and .displacement.cost_rows > 1' given.json >/dev/null ||
+    fail "few rows of a field: $(jq -c .rows given.json)"
 # Pairs that remain in conflict are eased, beside roads and within limits.
 alike streets '2 7' --gap 3 --effort 0 --rows auto --ease 30 --max-shift 3 --barrier line.geojson,width-field=width,gap=0.5
 cp whole.json eased.json

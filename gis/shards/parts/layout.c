@@ -29,16 +29,23 @@ typedef struct looking {
     size_t n, capacity;
 } looking;
 
-static bool take_block(void *user, const gis_spool_feature *feature, gis_error *error)
+static bool add_block(looking *to, int64_t number, const double box[4], gis_error *error)
+{
+    if (!gis_array_reserve(&to->block, &to->capacity, to->n + 1, sizeof *to->block)) return gis_no_memory(error);
+    to->block[to->n++] = (gis_part_block){number, {box[0], box[1], box[2], box[3]}};
+    return true;
+}
+
+/* Notes the block and the row of a feature; user: the looking of blocks, and that of rows. */
+static bool take_feature(void *user, const gis_spool_feature *feature, gis_error *error)
 {
     looking *l = user;
-    gis_part_block own = {.block = feature->demands.block};
-    sunder_shape_box(feature->demands.shape, own.box);
+    const int64_t block = feature->demands.block;
+    double box[4];
+    sunder_shape_box(feature->demands.shape, box);
     sunder_shape_free((sunder_shape *)feature->demands.shape);
-    if (own.block < 0) return true;
-    if (!gis_array_reserve(&l->block, &l->capacity, l->n + 1, sizeof *l->block)) return gis_no_memory(error);
-    l->block[l->n++] = own;
-    return true;
+    return (block < 0 || add_block(&l[0], block, box, error)) &&
+           (feature->row == 0 || add_block(&l[1], feature->row, box, error));
 }
 
 static int by_block(const void *a, const void *b)
@@ -65,33 +72,46 @@ static size_t unite_blocks(gis_part_block *block, size_t n)
 
 bool gis_layout_make(gis_spool *spool, double gap, bool numbered, gis_layout *out, gis_error *error)
 {
-    looking l = {0};
+    looking l[2] = {{0}};
     bool done = true;
     *out = (gis_layout){.spool = spool, .halo = halo_of(spool, gap)};
     for (size_t k = 0; numbered && k < gis_spool_cells(spool) && done; k++) {
-        done = gis_spool_read(spool, k, take_block, &l, error);
-        l.n = unite_blocks(l.block, l.n);
+        done = gis_spool_read(spool, k, take_feature, l, error);
+        for (int c = 0; c < 2; c++) l[c].n = unite_blocks(l[c].block, l[c].n);
     }
-    out->block = l.block;
-    out->blocks = l.n;
+    out->block = l[0].block;
+    out->blocks = l[0].n;
+    out->row = l[1].block;
+    out->rows = l[1].n;
     return done;
 }
 
-const gis_part_block *gis_layout_block(const gis_layout *layout, int64_t number)
+static const gis_part_block *find_number(const gis_part_block *list, size_t n, int64_t number)
 {
-    size_t low = 0, high = layout->blocks;
+    size_t low = 0, high = n;
     while (low < high) {
         const size_t middle = (low + high) / 2;
-        if (layout->block[middle].block < number)
+        if (list[middle].block < number)
             low = middle + 1;
         else
             high = middle;
     }
-    return low < layout->blocks && layout->block[low].block == number ? &layout->block[low] : NULL;
+    return low < n && list[low].block == number ? &list[low] : NULL;
+}
+
+const gis_part_block *gis_layout_block(const gis_layout *layout, int64_t number)
+{
+    return find_number(layout->block, layout->blocks, number);
+}
+
+const gis_part_block *gis_layout_row(const gis_layout *layout, int64_t number)
+{
+    return find_number(layout->row, layout->rows, number);
 }
 
 void gis_layout_clear(gis_layout *layout)
 {
     free(layout->block);
+    free(layout->row);
     *layout = (gis_layout){0};
 }

@@ -8,6 +8,7 @@
 #include "shards/parts/part_memory.h"
 
 #include <math.h>
+#include <ogr_core.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -34,11 +35,29 @@ static bool is_near(const gis_part *p, const double box[4])
     return false;
 }
 
-/* The place in layout->block of the block with this number; SIZE_MAX: there is none. */
-static size_t place_of(const gis_part *p, int64_t number)
+/* The pass in which the feature's block, and its row, came into the part; NULL: it has none. */
+static void find_passes(const gis_part *p, const gis_spool_feature *feature, unsigned *of[2])
 {
-    const gis_part_block *block = gis_layout_block(p->layout, number);
-    return block ? (size_t)(block - p->layout->block) : SIZE_MAX;
+    const gis_part_block *block = gis_layout_block(p->layout, feature->demands.block),
+                         *row = gis_layout_row(p->layout, feature->row);
+    of[0] = block ? &p->block[block - p->layout->block] : NULL;
+    of[1] = row ? &p->row[row - p->layout->row] : NULL;
+}
+
+/* Is the feature to be added in this pass? Its block and its row then are in the part. */
+static bool is_added(gis_part *p, const gis_spool_feature *feature, bool near)
+{
+    unsigned *of[2], first = GIS_NO_PASS;
+    find_passes(p, feature, of);
+    for (int c = 0; c < 2; c++)
+        if (of[c] && *of[c] < first) first = *of[c];
+    const bool added = p->pass ? !near && first == p->pass - 1 : near;
+    for (int c = 0; c < 2 && added; c++) {
+        if (!of[c] || *of[c] != GIS_NO_PASS) continue;
+        *of[c] = p->pass;
+        p->more = true;
+    }
+    return added;
 }
 
 static bool take_feature(void *user, const gis_spool_feature *feature, gis_error *error)
@@ -46,9 +65,7 @@ static bool take_feature(void *user, const gis_spool_feature *feature, gis_error
     gis_part *p = user;
     double box[4];
     sunder_shape_box(feature->demands.shape, box);
-    const size_t block = place_of(p, feature->demands.block);
-    const bool near = is_near(p, box), there = p->others ? !near && block != SIZE_MAX && p->block[block] : near;
-    if (there && block != SIZE_MAX) p->block[block] = true;
+    const bool there = is_added(p, feature, is_near(p, box));
     if (there && gis_array_reserve(&p->item, &p->capacity, p->n + 1, sizeof *p->item)) {
         gis_part_loaded *to = &p->item[p->n++];
         *to = (gis_part_loaded){*feature, p->wants(p->user, p->cell, feature->index)};
@@ -65,23 +82,34 @@ static int by_index(const void *a, const void *b)
     return (p->feature.index > q->feature.index) - (p->feature.index < q->feature.index);
 }
 
-/* May a feature in this box belong to a block that has a feature in the part? */
+/* May a feature in this box be added in this pass? */
 static bool has_others(const gis_part *p, const double box[4])
 {
-    for (size_t b = 0; b < p->layout->blocks; b++)
-        if (p->block[b] && gis_box_meets(p->layout->block[b].box, box)) return true;
-    return false;
+    const gis_layout *l = p->layout;
+    bool any = false;
+    for (size_t b = 0; b < l->blocks && !any; b++)
+        any = p->block[b] == p->pass - 1 && gis_box_meets(l->block[b].box, box);
+    for (size_t r = 0; r < l->rows && !any; r++) any = p->row[r] == p->pass - 1 && gis_box_meets(l->row[r].box, box);
+    return any;
+}
+
+static unsigned *not_in_any_pass(size_t n)
+{
+    unsigned *pass = malloc((n + 1) * sizeof *pass);
+    for (size_t k = 0; k < n && pass; k++) pass[k] = GIS_NO_PASS;
+    return pass;
 }
 
 static bool load_part(gis_part *p, gis_error *error)
 {
-    p->block = calloc(p->layout->blocks + 1, sizeof *p->block);
-    if (!p->block) return gis_no_memory(error);
-    for (int others = 0; others < (p->layout->blocks ? 2 : 1); others++) {
-        p->others = others;
+    p->block = not_in_any_pass(p->layout->blocks);
+    p->row = not_in_any_pass(p->layout->rows);
+    if (!p->block || !p->row) return gis_no_memory(error);
+    for (p->pass = 0, p->more = true; p->more; p->pass++) {
+        p->more = false;
         for (p->cell = 0; p->cell < gis_spool_cells(p->spool); p->cell++) {
             const double *box = gis_spool_cell_at(p->spool, p->cell)->box;
-            if ((others ? has_others(p, box) : is_near(p, box)) &&
+            if ((p->pass ? has_others(p, box) : is_near(p, box)) &&
                 !gis_spool_read(p->spool, p->cell, take_feature, p, error))
                 return false;
         }
@@ -150,6 +178,30 @@ static bool set_sides(gis_part *p, gis_error *error)
     return done || gis_core_failed(error, "a part of the layer", &why);
 }
 
+static bool set_rows(gis_part *p, gis_error *error)
+{
+    sunder_error why;
+    if (p->layout->how.rows != SUNDER_ROWS_GIVEN) return true;
+    int64_t *row = malloc((p->n + 1) * sizeof *row);
+    if (!row) return gis_no_memory(error);
+    for (size_t k = 0; k < p->n; k++) row[k] = p->item[k].feature.row - 1;
+    const bool done = sunder_layer_set_rows(p->layer, row, &why) == SUNDER_OK;
+    free(row);
+    return done || gis_core_failed(error, "a part of the layer", &why);
+}
+
+/* Tells of a feature that is in two rows, as gis_layer_run() does, and of other errors of the core. */
+static bool tell_failure(const gis_part *p, const sunder_error *why, gis_error *error)
+{
+    char who[GIS_WHO_SIZE];
+    if (why->status != SUNDER_EINVALID || why->polygon >= p->n)
+        return gis_core_failed(error, "a part of the layer", why);
+    const gis_spool_feature *f = &p->item[why->polygon].feature;
+    gis_name_subject(&(gis_subject){NULL, p->layout->name, f->fid != OGRNullFID, f->fid, f->index, f->id}, who,
+                     sizeof who);
+    return gis_fail(error, "%s: --rows: %s", who, why->message);
+}
+
 static bool separate_part(gis_part *p, gis_error *error)
 {
     sunder_layer_options options = p->layout->how;
@@ -165,9 +217,10 @@ static bool separate_part(gis_part *p, gis_error *error)
     }
     const bool made = sunder_layer_new(feature, p->n, &p->layer, &why) == SUNDER_OK;
     free(feature);
-    if (made && (!set_sides(p, error) || !gis_barriers_set(&p->barriers, p->layer, error))) return false;
+    if (made && (!set_sides(p, error) || !set_rows(p, error) || !gis_barriers_set(&p->barriers, p->layer, error)))
+        return false;
     if (!made || sunder_layer_separate(p->layer, &options, &p->report, &why) != SUNDER_OK)
-        return gis_core_failed(error, "a part of the layer", &why);
+        return tell_failure(p, &why, error);
     sunder_layer_summary summary;
     sunder_report_summary(p->report, &summary);
     if (p->layout->explain) *p->layout->explain += summary.seconds_explain;
@@ -184,6 +237,7 @@ static void clear_part(gis_part *p)
     }
     free(p->item);
     free(p->block);
+    free(p->row);
     free(p->decided);
     gis_barriers_list_clear(&p->barriers);
     gis_proof_lines_clear(&p->lines);

@@ -29,27 +29,30 @@ typedef struct gis_layout {
     size_t features;               /* number of features in the input: things with numbers from here on are barriers;
                                     * set by the caller */
     sunder_layer_options how;
-    double halo; /* distance around a shard within which features are read with it; a guess */
-    gis_part_block *block;
-    size_t blocks;
-    double memory;  /* approximate bytes that a process may take; a part that takes much more gets a warning. 0: no
+    double halo;                 /* distance around a shard within which features are read with it; a guess */
+    gis_part_block *block, *row; /* the numbered blocks, and the rows of --rows FIELD likewise */
+    size_t blocks, rows;
+    double memory;    /* approximate bytes that a process may take; a part that takes much more gets a warning. 0: no
                      * limit */
-    bool by_places; /* the proof identifies features by their places in the input, since FIDs are not unique */
+    bool by_places;   /* the proof identifies features by their places in the input, since FIDs are not unique */
+    const char *name; /* borrowed: of the layer, for messages */
     double *explain, *verify; /* borrowed: the seconds of these stages are added here; NULL: not measured */
 } gis_layout;
 
-/* Makes a layout. numbered: some features have a block in their demands, so all features are read to find the blocks'
- * boxes. The caller fills in `how`, without keep_worlds; if it has keep_trees, results contain lines of the proof. */
+/* Makes a layout. numbered: some features have a block in their demands, or a row, so all features are read to find
+ * the boxes of blocks and rows. The caller fills in `how`, without keep_worlds; if it has keep_trees, results contain
+ * lines of the proof. */
 bool gis_layout_make(gis_spool *spool, double gap, bool numbered, gis_layout *out, gis_error *error);
-/* The block with this number; NULL: no feature has it. */
+/* The block, or the row, with this number; NULL: no feature has it. */
 const gis_part_block *gis_layout_block(const gis_layout *layout, int64_t number);
+const gis_part_block *gis_layout_row(const gis_layout *layout, int64_t number);
 void gis_layout_clear(gis_layout *layout);
 
 /* Is the feature `index`, which is in cell `cell` of the spool, requested? */
 typedef bool gis_part_wants(const void *user, size_t cell, size_t index);
 
-/* Separates the features that meet the boxes, with all features of numbered blocks that these belong to, and adds the
- * results to *result. `run` is a number for this separation. Fails as gis_layer_run() does. */
+/* Separates the features that meet the boxes, with all features of numbered blocks and rows that these belong to, and
+ * so on, and adds the results to *result. `run` is a number for this separation. Fails as gis_layer_run() does. */
 bool gis_part_separate(const gis_layout *layout, const gis_boxes_list *boxes, gis_part_wants *wants, const void *user,
                        unsigned run, gis_part_result *result, gis_error *error);
 

@@ -5,11 +5,15 @@
 #include "layer/proof_lines.h"
 #include "shards/parts/part.h"
 
+#include <limits.h>
+
 /* A feature that was read; item[] is sorted by place in the input. */
 typedef struct gis_part_loaded {
     gis_spool_feature feature; /* its id is owned */
     bool wanted;
 } gis_part_loaded;
+
+#define GIS_NO_PASS UINT_MAX
 
 typedef struct gis_part {
     const gis_layout *layout;
@@ -18,8 +22,11 @@ typedef struct gis_part {
     gis_part_wants *wants;
     const void *user;
     size_t cell; /* the cell being read */
-    bool others; /* only features that belong to a block of the part are being added */
-    bool *block; /* [layout->blocks] a feature of the block is in the part */
+    /* [layout->blocks], [layout->rows] The pass of reading in which the first feature of each came into the part;
+     * GIS_NO_PASS: it has none. Pass 0 adds the features in the boxes, each further pass the other features of blocks
+     * and rows that came in the pass before; more: another pass is needed. */
+    unsigned *block, *row, pass;
+    bool more;
     gis_part_loaded *item;
     size_t n, capacity;
     bool *decided; /* [n] it is known which neighbours in rows the feature has; only for features that are wanted */

@@ -30,7 +30,7 @@ typedef struct spooling {
     gis_spool_writer *writer;
     gis_spool_writer *aside; /* the spool of features that conflict with nothing; NULL: not begun */
     gis_disk_file status;
-    gis_block_keys keys;
+    gis_block_keys keys, rows;
     double *areas, median; /* areas of the features that count, if weights depend on area */
     size_t n_areas, room;
     double shapes[4]; /* box of all shapes */
@@ -60,8 +60,8 @@ static bool take_demands(spooling *s, gis_error *error)
     gis_layer_default_demands(input);
     gis_layer_box(input, box);
     gis_box_join(s->shapes, box);
-    if (!gis_layer_marks(input, error) || !gis_layer_number_blocks(input, &s->keys, error) || !weigh_batch(s, error) ||
-        !gis_layer_limits(input, error))
+    if (!gis_layer_marks(input, error) || !gis_layer_number_blocks(input, &s->keys, error) ||
+        !gis_layer_number_rows(input, &s->rows, error) || !weigh_batch(s, error) || !gis_layer_limits(input, error))
         return false;
     gis_layer_box(input, box);
     gis_box_join(s->facts->box, box);
@@ -108,7 +108,8 @@ static bool add_feature(spooling *s, size_t i, char **copy, gis_error *error)
                                  .fid = gis_source_fid(input->source, i),
                                  .demands = input->feature[i],
                                  .start = {NAN, NAN},
-                                 .area = by_area(s) ? sunder_shape_area(input->shape[i]) : 0};
+                                 .area = by_area(s) ? sunder_shape_area(input->shape[i]) : 0,
+                                 .row = input->row ? input->row[i] + 1 : 0};
     feature.demands.shape = input->shape[i];
     s->facts->aside += aside;
     return to && (!input->points || gis_arrow_start(input, i, feature.start, error)) &&
@@ -274,6 +275,7 @@ static void clear_spooling(spooling *s)
     gis_spool_writer_free(s->aside);
     gis_disk_file_close(&s->status);
     gis_block_keys_clear(&s->keys);
+    gis_block_keys_clear(&s->rows);
     free(s->areas);
     gis_layer_input_clear(&s->input);
 }

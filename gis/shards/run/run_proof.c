@@ -39,8 +39,7 @@ static bool put_rows(gis_shard_run *p, gis_json *json, FILE *to, gis_error *erro
     for (size_t k = 0; gis_sorted_results_next(pairs, &any, error) && any; k++) {
         const gis_part_neighbours *one = pairs->one.neighbour;
         int64_t name[2];
-        for (int c = 0; c < 2; c++)
-            name[c] = p->facts.source.fids_unique ? one->fid[c] : (int64_t)one->is.feature[c];
+        for (int c = 0; c < 2; c++) name[c] = p->facts.source.fids_unique ? one->fid[c] : (int64_t)one->is.feature[c];
         gis_proof_row_line(json, k, name, &one->is);
         if (!gis_proof_print(json, to, error)) return false;
     }

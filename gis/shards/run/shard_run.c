@@ -109,17 +109,18 @@ static const double row_gaps = 9;
 
 static bool open_spool(gis_shard_run *p, double memory, gis_error *error)
 {
+    const bool numbered = p->request->rules.block_field || p->request->rules.rows_field;
     const bool done =
         gis_spool_open(p->directory, &p->spool, error) &&
         (gis_spool_parts(p->spool) == parts_of(p->shards) ||
          gis_fail(error, "%s: its cells are assigned to other shards; make the plan anew", p->directory)) &&
         (p->request->barriers == 0 || gis_barriers_open(p->directory, &p->barriers, error)) &&
-        choose_parts(p, memory, error) &&
-        gis_layout_make(p->spool, p->facts.gap, p->request->rules.block_field != NULL, &p->layout, error);
+        choose_parts(p, memory, error) && gis_layout_make(p->spool, p->facts.gap, numbered, &p->layout, error);
     if (p->request->rules.core.rows) p->layout.halo += row_gaps * p->facts.gap;
     p->layout.barriers = p->barriers;
     p->layout.features = p->facts.source.features;
     p->layout.memory = memory;
+    p->layout.name = p->facts.name;
     p->layout.by_places = !p->facts.source.fids_unique;
     return done;
 }
