@@ -550,7 +550,7 @@ typedef struct sunder_layer_options {
     /* The caller may leave out a barrier if no feature comes too near to it, or crosses it, by a move no longer than
      * barrier_reach. A barrier with sides may be left out only if it is also farther than sunder_side_reach() from the
      * box of every feature. INFINITY (the default): no barrier was left out. barrier_reach must be at least the longest
-     * max_shift; need_shift of a conflict is at most barrier_reach. */
+     * max_shift, and with rows four gaps; need_shift of a conflict is at most barrier_reach. */
     double barrier_reach;
     sunder_trace trace; /* NULL for none */
     void *trace_user;

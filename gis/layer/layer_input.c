@@ -126,7 +126,13 @@ static bool make_layer(gis_layer_input *input, gis_error *error)
  * solve a conflict. */
 static const double limits_known = 4;
 
-double gis_layer_barrier_reach(double longest_limit) { return limits_known * longest_limit; }
+/* Neighbours in a row are at most this many gaps apart, and a barrier between them ends the row. */
+static const double gaps_of_rows = 4;
+
+double gis_layer_barrier_reach(const gis_layer_input *input, double longest_limit)
+{
+    return fmax(limits_known * longest_limit, input->request->rules.core.rows ? gaps_of_rows * input->gap : 0);
+}
 
 /* The longest move that any feature may make. */
 static double longest_limit(const gis_layer_input *input)
@@ -187,7 +193,7 @@ static bool read_barriers(gis_layer_input *input, gis_error *error)
 {
     const gis_layer_input_request *request = input->request;
     if (request->barriers == 0) return true;
-    input->barrier_reach = gis_layer_barrier_reach(longest_limit(input));
+    input->barrier_reach = gis_layer_barrier_reach(input, longest_limit(input));
     gis_barrier_targets *targets = find_targets(input);
     if (!targets) return gis_no_memory(error);
     const gis_barrier_surroundings around = {

@@ -61,7 +61,7 @@ bool gis_layer_input_read(const gis_layer_input_request *request, gis_layer_inpu
 /* Reads the source and its shapes alone, arcs as chords, for a command without conflicts. */
 bool gis_layer_shapes_read(const gis_layer_input_request *request, gis_layer_input *out, gis_error *error);
 /* The distance around features within which barriers are read, for this longest limit. */
-double gis_layer_barrier_reach(double longest_limit);
+double gis_layer_barrier_reach(const gis_layer_input *input, double longest_limit);
 /* Sets xy to the point of feature i; of a multipoint, the smallest by x, then y. *any is false if it has none. */
 bool gis_layer_point(const gis_layer_input *input, size_t i, double xy[2], bool *any, gis_error *error);
 /* Sets `box` to the box around all shapes; after features were made, around those that are not ignored. box[0] > box[2]

@@ -26,6 +26,19 @@ ogrinfo -q plain.gpkg | grep -q rows && fail "rows, unasked"
 expect 0 separate street.gpkg main.gpkg --gap 3 --rows auto --layers main
 ogrinfo -q main.gpkg | grep -q rows && fail "a layer of rows, though only the main layer was requested"
 
+# Five huts 11 m apart, with a line halfway between the third and the fourth. It ends the row, however short the moves
+# are, and so does it in parts: a barrier is read as far from features as a link of a row may be.
+{
+    echo "WKT,w"
+    for x in 0 12 24 36 48; do echo "\"POLYGON(($x 0,$((x + 1)) 0,$((x + 1)) 1,$x 1,$x 0))\",1"; done
+} | layer huts.gpkg huts POLYGON
+printf 'WKT,k\n"LINESTRING(30.5 -3,30.5 4)",1\n' | layer between.gpkg between LINESTRING
+for words in '' '--max-shift 0.1' '--max-shift 0.1 --max-memory 1G'; do
+    # shellcheck disable=SC2086
+    expect 0 separate huts.gpkg h.gpkg --overwrite --gap 3 --rows auto --barrier between.gpkg,gap=0 $words --stats huts.json
+    [ "$(jq -c '.rows | [.rows, .features]' huts.json)" = '[1,3]' ] || fail "huts, $words: $(jq -c .rows huts.json)"
+done
+
 # Twelve houses 1 m apart have to be 5 m apart. Without --rows they move to alternating sides; with it they stay a row.
 {
     echo "WKT,w"

@@ -248,7 +248,7 @@ static bool spool_barriers(spooling *s, const char *directory, gis_error *error)
     s->facts->barrier_reach = INFINITY;
     if (request->barriers == 0) return true;
     if (!gis_spool_open(directory, &spool, error)) return false;
-    s->facts->barrier_reach = gis_layer_barrier_reach(request->moves ? s->facts->longest_limit : 0);
+    s->facts->barrier_reach = gis_layer_barrier_reach(&s->input, request->moves ? s->facts->longest_limit : 0);
     const bool done = gis_layer_spool_barriers(&s->input, s->facts->barrier_reach, spool, directory, error);
     gis_spool_close(spool);
     return done;
