@@ -765,6 +765,10 @@ typedef struct sunder_layer_summary {
      * may move; and the sum of what they lack, the most of the conflicts of each. */
     size_t short_pairs;
     double shortfall;
+    /* Neighbours in rows: the length of their relative move along the row, the change of their spacing; and the angle,
+     * in degrees, by which the line from one to the other turns. Of each the mean, and the value that 95 % of the pairs
+     * do not exceed. */
+    double spacing_mean, spacing_p95, turn_mean, turn_p95;
 } sunder_layer_summary;
 
 /* Lists the conflicts of a layer as it stands, exactly. The caller frees the report with sunder_report_free().

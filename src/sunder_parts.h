@@ -108,6 +108,8 @@ typedef struct sunder_row_pair {
     double along[2];   /* the direction of the row, from the first to the second: a unit vector */
     double apart;      /* at the start, the separation of the two blocks along it; negative: they overlap there */
     double offset;     /* at the start, by how much the second is to the left of the first, seen along the row */
+    double middle[2];  /* at the start, from the middle of the first to that of the second: along the row, and to its
+                        * left; the middles are those of the blocks' extents in these directions */
     double weight;     /* the lesser of the weights of the two blocks */
     double move[2][2]; /* the moves of the two */
 } sunder_row_pair;

@@ -89,6 +89,10 @@ static void json_rows(gis_json *out, const sunder_layer_summary *summary)
     gis_json_put_double(out, "kink_mean", summary->kink_mean);
     gis_json_put_double(out, "kink_p95", summary->kink_p95);
     gis_json_put_double(out, "kink_share", summary->kink_share);
+    gis_json_put_double(out, "spacing_mean", summary->spacing_mean);
+    gis_json_put_double(out, "spacing_p95", summary->spacing_p95);
+    gis_json_put_double(out, "turn_mean", summary->turn_mean);
+    gis_json_put_double(out, "turn_p95", summary->turn_p95);
     gis_json_close(out, '}');
 }
 
@@ -198,6 +202,10 @@ static void print_rows(const gis_separate_run *run)
     printf("kink of neighbours in rows (%s): mean %.3g, 95 %% at most %.3g, above %.3g: %.3g %%\n",
            gis_separate_unit(run), summary->kink_mean, summary->kink_p95, gis_layer_kink(&run->input),
            100 * summary->kink_share);
+    printf("change of spacing in rows (%s): mean %.3g, 95 %% at most %.3g\n", gis_separate_unit(run),
+           summary->spacing_mean, summary->spacing_p95);
+    printf("turn of the lines between neighbours (degrees): mean %.3g, 95 %% at most %.3g\n", summary->turn_mean,
+           summary->turn_p95);
 }
 
 static void print_shortfall(const gis_separate_run *run)

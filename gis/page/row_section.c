@@ -81,7 +81,15 @@ static void add_figures(const gis_page_model *model, double least, gis_text *to)
     gis_print_share_or_more(to, summary->kink_share);
     gis_text_add(to, " are above ");
     gis_print_length(to, least, &model->unit);
-    gis_text_add(to, model->request->input->request->scale > 0 ? ", 0.1\xC2\xA0mm on the sheet.</p>\n" : ".</p>\n");
+    gis_text_add(to, model->request->input->request->scale > 0 ? ", 0.1\xC2\xA0mm on the sheet." : ".");
+    gis_text_add(to, " Their spacing along the row changes by ");
+    gis_print_length(to, summary->spacing_mean, &model->unit);
+    gis_text_add(to, " on average, 95\xC2\xA0% at most by ");
+    gis_print_length(to, summary->spacing_p95, &model->unit);
+    gis_text_print(to,
+                   "; the line between their middles turns by %.2g\xC2\xB0 on average, 95\xC2\xA0%% at most by "
+                   "%.2g\xC2\xB0.</p>\n",
+                   summary->turn_mean, summary->turn_p95);
 }
 
 static bool add_places(const gis_page_model *model, const sunder_row **bent, size_t n, gis_text *to, gis_error *error)

@@ -10,7 +10,7 @@
 _Static_assert(SUNDER_I_ENDS_WITH(sunder_sum_options, threads), "an added member must not fill padding");
 _Static_assert(SUNDER_I_ENDS_WITH(sunder_layer_options, ease), "an added member must not fill padding");
 _Static_assert(SUNDER_I_ENDS_WITH(sunder_route_options, progress_user), "an added member must not fill padding");
-_Static_assert(SUNDER_I_ENDS_WITH(sunder_layer_summary, shortfall), "an added member must not fill padding");
+_Static_assert(SUNDER_I_ENDS_WITH(sunder_layer_summary, turn_p95), "an added member must not fill padding");
 
 void sunder_i_sized_struct_write(void *given, size_t size, const void *own, size_t own_size)
 {

@@ -6,6 +6,7 @@ from the output. A town in which a quantity is within MARGIN of its threshold is
 is then written in other ways (rings, order, place, mirrored, turned), and must have the same rows.
 
 Uses only Python's standard library, and no code of the program."""
+import cmath
 import json
 import math
 import random
@@ -31,7 +32,7 @@ class Row:
         for b, edge in row:
             f, g = (edge.f, edge.g) if b == edge.i else (edge.g, edge.f)
             chain += [fids[f], fids[g]] if not chain or chain[-1] != fids[f] else [fids[g]]
-            self.edges.append((fids[edge.f], fids[edge.g], edge.axis, edge.offset))
+            self.edges.append((fids[edge.f], fids[edge.g], edge.axis, edge.offset, edge.middle))
         self.bodies = len({b for b, _ in row} | {e.other(b) for b, e in row})
         self.ring = ring
         if ring and chain[-1] == chain[0]:
@@ -51,10 +52,20 @@ class Row:
         return chain + chain[:1]
 
     def kink_before(self):
-        return max(abs(offset) for *_, offset in self.edges)
+        return max(abs(offset) for *_, offset, _ in self.edges)
 
     def bends(self, move):
-        return [(move[g][1] - move[f][1]) * axis[0] - (move[g][0] - move[f][0]) * axis[1] for f, g, axis, _ in self.edges]
+        return [v[1] for v in self.moves(move)]
+
+    def moves(self, move):
+        """The relative moves of neighbours, along the row and to its left."""
+        return [((move[g][0] - move[f][0]) * x + (move[g][1] - move[f][1]) * y, (move[g][1] - move[f][1]) * x - (move[g][0] - move[f][0]) * y)
+                for f, g, (x, y), _, _ in self.edges]
+
+    def turns(self, move):
+        """The angles by which the lines between neighbours turn, in degrees."""
+        return [math.degrees(abs(cmath.phase(complex(a + u, b + v) / complex(a, b))))
+                for (u, v), (*_, (a, b)) in zip(self.moves(move), self.edges)]
 
     def kink_after(self, move):
         return max(abs(e[3] + bend) for e, bend in zip(self.edges, self.bends(move)))
@@ -376,11 +387,15 @@ def compare(what, layer, expected, output, change=same, exactly=True):
 
 
 def compare_figures(layer, expected, output, stats):
-    kinks = sorted(abs(b) for r in expected for b in r.bends(output.move))
+    kinks = [abs(b) for r in expected for b in r.bends(output.move)]
+    measured = {"kink": kinks, "spacing": [abs(v[0]) for r in expected for v in r.moves(output.move)],
+                "turn": [t for r in expected for t in r.turns(output.move)]}
     n = len(kinks)
     most = layer.gap / 10
-    figures = {"rows": len(expected), "features": 0, "kink_mean": sum(kinks) / max(n, 1),
-               "kink_p95": kinks[n - 1 - n // 20] if n else 0, "kink_share": sum(k > most for k in kinks) / max(n, 1)}
+    figures = {"rows": len(expected), "features": 0, "kink_share": sum(k > most for k in kinks) / max(n, 1)}
+    for name, values in measured.items():
+        figures[name + "_mean"] = sum(values) / max(n, 1)
+        figures[name + "_p95"] = sorted(values)[n - 1 - n // 20] if n else 0
     bodies = set()
     for r in expected:
         bodies |= {output.block[f] or -f for f in r.chain}

@@ -154,8 +154,8 @@ def apart(e, f):
 
 
 def stand_side_by_side(p, q, blocks, gap):
-    """None: not neighbours; else the direction towards q, as a unit vector, the offset, and the link along the row. p, q: the nearest
-    houses of the two blocks, whose walls have that direction."""
+    """None: not neighbours; else the direction towards q, as a unit vector, the offset, the vector from middle to middle along the row
+    and to its left, and the link along the row. p, q: the nearest houses of the two blocks, whose walls have that direction."""
     share = [at_most(h.length * STRAIGHT, abs(h.walls)) for h in (p, q)]
     if False in share:
         return None
@@ -198,16 +198,18 @@ def judge(axis, along, across, left, gap):
         return None
     if answer is None or abs(abs(offsets[0]) - abs(offsets[1])) <= MARGIN < abs(offsets[0] - offsets[1]):
         return "open"
-    middle = left * (max(e[0] for e in across) + min(e[1] for e in across)) / 2
-    link = [(at * axis[0] - middle * axis[1], at * axis[1] + middle * axis[0]) for at in (along[0][1], along[1][0])]
-    return axis, left * offsets[0], link
+    at = left * (max(e[0] for e in across) + min(e[1] for e in across)) / 2
+    link = [(end * axis[0] - at * axis[1], end * axis[1] + at * axis[0]) for end in (along[0][1], along[1][0])]
+    middle = ((sum(along[1]) - sum(along[0])) / 2, left * (sum(across[1]) - sum(across[0])) / 2)
+    return axis, left * offsets[0], middle, link
 
 
 class Edge:
-    """Two bodies side by side: i, j; their houses f, g that are nearest to each other; the direction; the offset."""
+    """Two bodies side by side: i, j; their houses f, g that are nearest to each other; direction, offset, middle to middle."""
 
-    def __init__(self, i, j, near, axis, offset):
-        self.i, self.j, self.f, self.g, self.near, self.axis, self.offset = i, j, near.f, near.g, near, axis, offset
+    def __init__(self, i, j, near, axis, offset, middle):
+        self.i, self.j, self.f, self.g, self.near = i, j, near.f, near.g, near
+        self.axis, self.offset, self.middle = axis, offset, middle
 
     def towards(self, body):
         return self.axis if body == self.j else (-self.axis[0], -self.axis[1])
@@ -251,8 +253,8 @@ def made_edge(i, j, near, houses, blocks, lines, gap):
         return None
     if found is None:
         return False
-    crossed = is_crossed(found[2], lines)
-    return None if crossed is None else False if crossed else Edge(i, j, near, *found[:2])
+    crossed = is_crossed(found[3], lines)
+    return None if crossed is None else False if crossed else Edge(i, j, near, *found[:3])
 
 
 def edges_of(bodies, houses, lines, gap):

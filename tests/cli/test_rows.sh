@@ -13,6 +13,9 @@ command -v jq >/dev/null || { echo "skipped: no jq"; exit 77; }
 
 expect 0 separate street.gpkg o.gpkg --gap 3 --rows auto --stats o.json
 grep -q '^rows 1, features in them 5$' out || fail "the summary: $(cat out)"
+for figure in 'change of spacing in rows (.*): mean 1, 95 % at most 1' 'turn of the lines between neighbours (degrees): mean 0,'; do
+    grep -q "^$figure" out || fail "the summary has no line \"$figure\": $(cat out)"
+done
 [ "$(jq -c '.rows | [.rows, .features, .kink_share]' o.json)" = '[1,5,0]' ] || fail "the figures: $(jq -c .rows o.json)"
 row=$(ogrinfo -q -al o.gpkg street_rows | tr -d '\n')
 case $row in *'row (Integer64) = 1 '*'houses (Integer64) = 5 '*'kink_bef (Real) = 0 '*'kink_aft (Real) = '*LINESTRING*) ;; *) fail "the row: $row" ;; esac
@@ -54,6 +57,9 @@ expect 0 separate twelve.gpkg free.gpkg --gap 5 --stats free.json
 jq -e '(.displacement.cost_moves - 2288 | fabs) < 1e-6 and (.displacement.cost_rows - 52.8 | fabs) < 1e-6 and
     (.displacement.max - 22 | fabs) < 1e-6 and .rows.kink_p95 == 0 and .displacement.optimality_gap < 1e-5' row.json \
     >/dev/null || fail "twelve houses: $(jq -c '.displacement, .rows' row.json)"
+# What an eye sees of a row is measured: kinks, spacing, and the turn of the lines between neighbours.
+jq -e '.rows | ([.spacing_mean, .spacing_p95 | . - 4 | fabs < 1e-6] | all) and .turn_mean == 0 and .turn_p95 == 0' row.json \
+    >/dev/null || fail "spacing and turn: $(jq -c .rows row.json)"
 # Houses with wings, in a row that is turned by 22.6 degrees. Along the row they are less than the gap apart, though
 # nowhere nearer than the gap, so the rule of rows forbids that they come nearer to each other along it, even by rounding.
 # The first is too near to a fixed house, and has to push the others ahead of it.

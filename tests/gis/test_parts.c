@@ -326,6 +326,8 @@ static void demand_same_rows(const town *t, const sunder_report *whole, const gi
     }
     assert_true(s.rows == u->rows && s.row_features == u->row_features && s.row_pairs == u->row_pairs);
     assert_true(s.kink_mean == u->kink_mean && s.kink_p95 == u->kink_p95 && s.kink_share == u->kink_share);
+    assert_true(s.spacing_mean == u->spacing_mean && s.spacing_p95 == u->spacing_p95);
+    assert_true(s.turn_mean == u->turn_mean && s.turn_p95 == u->turn_p95);
     assert_true(s.cost_moves == u->cost_moves && s.cost_rows == u->cost_rows);
 }
 

@@ -25,35 +25,52 @@ static int by_size(const void *x, const void *y)
     return a < b ? -1 : a > b;
 }
 
-/* Fills the kinks of the summary from those of n > 0 pairs, which are sorted. */
-static void summarise(const double *kink, size_t n, double counted, sunder_layer_summary *summary)
+/* Returns the move of the second one along the row relative to the first one: by how much the two come apart. */
+static double slide_of(const sunder_row_pair *p)
 {
-    sunder_total total = {0};
-    size_t above = 0;
-    for (size_t k = 0; k < n; k++) {
-        sunder_total_add(&total, kink[k]);
-        above += kink[k] > counted;
-    }
-    summary->kink_mean = sunder_total_nearest(&total) / (double)n;
-    summary->kink_p95 = kink[n - 1 - n / TWENTIETH];
-    summary->kink_share = (double)above / (double)n;
+    const double *s = p->move[0], *t = p->move[1];
+    return (t[0] - s[0]) * p->along[0] + (t[1] - s[1]) * p->along[1];
 }
 
-/* Measures kinks and springs. */
+/* Returns by how much the line from the middle of the first to that of the second turns, in degrees. */
+static double turn_of(const sunder_row_pair *p)
+{
+    const double *d = p->middle, e[2] = {d[0] + slide_of(p), d[1] + bend_of(p)};
+    return fabs(atan2(d[0] * e[1] - d[1] * e[0], d[0] * e[0] + d[1] * e[1])) * 180 / acos(-1);
+}
+
+/* Sorts n > 0 values, and sets their mean and the value that 95 % do not exceed. */
+static void summarise(double *value, size_t n, double *mean, double *p95)
+{
+    sunder_total total = {0};
+    for (size_t k = 0; k < n; k++) sunder_total_add(&total, value[k]);
+    qsort(value, n, sizeof *value, by_size);
+    *mean = sunder_total_nearest(&total) / (double)n;
+    *p95 = value[n - 1 - n / TWENTIETH];
+}
+
+/* Measures the kinks, the changes of spacing, the turns, and the cost of the springs of n > 0 pairs. */
 static sunder_status measure_pairs(const sunder_row_pair *pair, size_t n, const sunder_i_row_figures *how,
                                    sunder_layer_summary *summary, sunder_error *err)
 {
     sunder_total cost = {0};
-    double *kink = sunder_i_alloc(n, sizeof *kink);
+    size_t above = 0;
+    double *kink = sunder_i_alloc(3 * n, sizeof *kink);
     if (!kink) return sunder_i_failure_cause(err);
+    double *slide = kink + n, *turn = slide + n;
     for (size_t k = 0; k < n; k++) {
         const sunder_row_pair *p = &pair[k];
         const sunder_i_row_side side = {.along = {p->along[0], p->along[1]}, .weight = p->weight};
         kink[k] = fabs(bend_of(p));
+        slide[k] = fabs(slide_of(p));
+        turn[k] = turn_of(p);
+        above += kink[k] > how->kink;
         sunder_total_add(&cost, sunder_i_spring_cost_with(how->stiffness, &side, p->move[0], p->move[1]));
     }
-    qsort(kink, n, sizeof *kink, by_size);
-    summarise(kink, n, how->kink, summary);
+    summarise(kink, n, &summary->kink_mean, &summary->kink_p95);
+    summarise(slide, n, &summary->spacing_mean, &summary->spacing_p95);
+    summarise(turn, n, &summary->turn_mean, &summary->turn_p95);
+    summary->kink_share = (double)above / (double)n;
     summary->cost_rows = sunder_total_nearest(&cost);
     sunder_i_free(kink);
     return SUNDER_OK;
@@ -162,6 +179,7 @@ static sunder_status make_rows(const sunder_row_pair *pair, size_t n, const sund
     *list = (sunder_row_list){0};
     summary->rows = summary->row_features = summary->row_pairs = 0;
     summary->kink_mean = summary->kink_p95 = summary->kink_share = summary->cost_rows = 0;
+    summary->spacing_mean = summary->spacing_p95 = summary->turn_mean = summary->turn_p95 = 0;
     if (n == 0) return SUNDER_OK;
     sunder_status status = sunder_i_row_chains_make(pair, n, &chains, err);
     if (!status) status = list_rows(pair, n, &chains, list, err);
@@ -216,6 +234,7 @@ sunder_status sunder_i_report_row_pairs(sunder_report *report, const sunder_i_mo
                               .along = {edge->along[0], edge->along[1]},
                               .apart = edge->apart,
                               .offset = edge->offset,
+                              .middle = {edge->middle[0], edge->middle[1]},
                               .weight = sunder_i_min(sunder_i_weight_below(model, &model->body[edge->i]),
                                                      sunder_i_weight_below(model, &model->body[edge->j])),
                               .move = {{s[0], s[1]}, {t[0], t[1]}}};
@@ -232,6 +251,7 @@ static sunder_row_pair turned(const sunder_row_pair *p)
                              .along = {-p->along[0], -p->along[1]},
                              .apart = p->apart,
                              .offset = p->offset,
+                             .middle = {p->middle[0], p->middle[1]},
                              .weight = p->weight,
                              .move = {{p->move[1][0], p->move[1][1]}, {p->move[0][0], p->move[0][1]}}};
 }

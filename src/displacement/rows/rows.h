@@ -14,6 +14,7 @@ typedef struct sunder_i_row_edge {
     double apart;     /* the separation of the two whole bodies along it; negative: they overlap there */
     double offset;    /* by how much j is to the left of i, seen along the row: at the front, the back or the middle,
                        * whichever is the least */
+    double middle[2]; /* from the middle of the extents of i to that of j, along the row and to its left */
 } sunder_i_row_edge;
 
 /* The rows of a layer, as the pairs of neighbours in them. At each side of a body there is at most one edge. */

@@ -43,6 +43,8 @@ static stand stand_of(const sunder_i_model *model, uint32_t body, const double a
 
 static double length_of(const extent *e) { return e->to - e->from; }
 
+static double middle_of(const extent *e) { return (e->from + e->to) / 2; }
+
 /* Returns the separation of two extents; negative if they overlap. */
 static double apart(const extent *e, const extent *f) { return sunder_i_max(e->from - f->to, f->from - e->to); }
 
@@ -100,6 +102,8 @@ static void measure_edge(const sunder_i_model *model, sunder_i_row_edge *edge, s
     choose_axis(model, body, origin, edge->along, s);
     edge->offset = offset_of(&s[0].across, &s[1].across);
     edge->apart = s[1].along.from - s[0].along.to;
+    edge->middle[0] = middle_of(&s[1].along) - middle_of(&s[0].along);
+    edge->middle[1] = middle_of(&s[1].across) - middle_of(&s[0].across);
     find_link(s, edge->along, origin, link);
 }
 
