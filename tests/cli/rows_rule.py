@@ -6,7 +6,7 @@ from fractions import Fraction
 
 MARGIN = 1e-9
 REACH, ANGLE, STRAIGHT, SHARED, DEPTHS, LEAST = 4, 15, 0.1, 0.5, 2.5, 3
-STEP, STEP_GAPS = 0.4, 2  # of the smaller depth; in gaps
+STEP, STEP_GAPS = 0.4, 1.5  # of the smaller depth; in gaps
 
 
 class Undecided(Exception):
