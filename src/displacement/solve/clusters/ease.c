@@ -121,7 +121,7 @@ static sunder_status refuse_pair(sunder_i_solver *s, sunder_i_cluster *c, const 
 static sunder_status try_moves(sunder_i_solver *s, sunder_i_cluster *c, bool *again, sunder_error *err)
 {
     const double none[2] = {0, 0};
-    sunder_i_trial t = {.solver = s};
+    sunder_i_trial t = {.solver = s, .whole_rows = true};
     sunder_i_reading reading;
     sunder_i_reads_begin(&reading, &s->model, sunder_i_reader_for(s, c));
     sunder_status status = sunder_i_trial_take_moved(&t, c, s->move + 2 * (size_t)(c->body - s->body))

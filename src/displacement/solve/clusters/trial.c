@@ -60,6 +60,45 @@ static sunder_status check_pair(void *context, const sunder_i_relation *r, bool 
     return status;
 }
 
+/* Two bodies, and whether they are in conflict. */
+typedef struct meeting {
+    const sunder_i_model *model;
+    uint32_t i, j;
+    bool conflict;
+} meeting;
+
+static sunder_status note_conflict(void *context, const sunder_i_relation *r, bool *on, sunder_error *err)
+{
+    meeting *m = context;
+    const uint32_t i = m->model->body_of[r->a], j = m->model->body_of[r->b];
+    (void)err;
+    m->conflict = ((i == m->i && j == m->j) || (i == m->j && j == m->i)) && sunder_i_is_conflict(r);
+    *on = !m->conflict;
+    return SUNDER_OK;
+}
+
+/* Checks the neighbours in rows with which body b was left in conflict: if they are in conflict no more, they have to
+ * keep the rule of a pair that is solved. */
+static sunder_status check_rows(sunder_i_trial *t, uint32_t b, sunder_error *err)
+{
+    const sunder_i_model *model = &t->solver->model;
+    const sunder_i_extras *has = model->body[b].has;
+    sunder_status status = SUNDER_OK;
+    for (uint32_t k = has->row_side; k < has->row_side + has->row_sides && t->well && !status; k++) {
+        const sunder_i_row_side *side = &model->row_side[k];
+        meeting m = {model, b, side->other, false};
+        if (!sunder_i_relaxations_between(&model->relaxations, b, side->other) ||
+            sunder_i_keeps_row(side, model->move + 2 * (size_t)b, model->move + 2 * (size_t)side->other, side->least))
+            continue;
+        status = sunder_i_placement_visit(model, &t->solver->placement, b, &t->near, note_conflict, &m, err);
+        t->well = m.conflict;
+        if (!m.conflict)
+            t->broken = (sunder_i_id_pair){model->member[model->body[b].member],
+                                           model->member[model->body[side->other].member]};
+    }
+    return status;
+}
+
 /* Can each body take its goal exactly and within its limit, and does at least one of them move? */
 static bool can_go(const sunder_i_trial *t, const double to[2])
 {
@@ -119,6 +158,8 @@ sunder_status sunder_i_trial_place(sunder_i_trial *trial, const double to[2], su
     for (size_t k = 0; k < trial->n && trial->well && !status; k++)
         status =
             sunder_i_placement_visit(&s->model, &s->placement, trial->body[k], &trial->near, check_pair, trial, err);
+    for (size_t k = 0; k < trial->n && trial->whole_rows && trial->well && !status; k++)
+        status = check_rows(trial, trial->body[k], err);
     for (size_t k = 0; k < trial->n && trial->well && !status; k++) {
         bool jumps;
         status = sunder_i_jumps_of_body(&s->jumps, &s->model, trial->body[k], &trial->near, &jumps, err);

@@ -19,6 +19,7 @@ typedef struct sunder_i_trial {
     const sunder_i_id_pair *parted; /* two bodies of which no pair may be in conflict then, except infeasible ones; or
                                 * NULL */
     bool from_start;
+    bool whole_rows;           /* a pair that comes to keep its distance has to keep the whole rule of rows, too */
     sunder_i_list near, about; /* scratch; neighbours of the bodies before the trial */
     sunder_i_id_pair broken;   /* if a pair of things made the trial fail: this pair; at first two equal numbers */
     bool well;                 /* the trial has succeeded, as far as it was checked */
