@@ -27,7 +27,7 @@ assert {"settle", "reconsider", "improve"} <= stages, stages
 # comes before that one's line.
 tables = {(e.get("table"), e.get("step")) for e in events}
 for row in (("layer", None), ("search", None), ("settle", "commit"), ("optimise", "take over"), ("cluster", "descend"),
-            ("give up", "relax gradually"), ("retry", "resolve overlaps"), ("improve", "try places and sides"), ("group", "grow tree")):
+            ("give up", "fall short"), ("retry", "end overlaps"), ("improve", "try places and sides"), ("group", "grow tree")):
     assert row in tables, row
 within = [k for k, e in enumerate(events) if e.get("table") == "give up"]
 assert all(events[k + 1].get("table") == "give up" or events[k + 1].get("step") == "give up" for k in within), "give up"

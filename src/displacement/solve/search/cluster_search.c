@@ -33,7 +33,6 @@ bool sunder_i_search_init(sunder_i_search *search, const sunder_i_model *model, 
     search->gap = model->rules.gap + margin;
     search->tolerance = margin / 4;
     search->settled = SETTLED;
-    search->clashing = MOST_CLASHING;
     search->cap = INFINITY;
     search->patience = UINT64_MAX;
     search->hope = INFINITY;

@@ -76,8 +76,7 @@ typedef struct sunder_i_search {
     double extent;           /* the mean size of the bodies, parts of barriers left out */
     double settled;          /* a round that gains a smaller share of the cost is the last one */
     uint64_t steps, effort;  /* constraints examined so far; the work at which the search for better sides ends */
-    int clashing;            /* a descent gives up after this many rounds that end in clashes ... */
-    uint64_t patience;       /* ... or when the work reaches this ... */
+    uint64_t patience;       /* a descent gives up when the work reaches this ... */
     const double *back;      /* ... or when a program ends at these moves, [2 n]; NULL: no such test ... */
     double hope;             /* ... or when its expected final cost exceeds this; INFINITY: no such test */
     const double *lead;      /* [2 n] moves at which the sides of free pairs are chosen; NULL: at the present moves */
@@ -150,6 +149,8 @@ void sunder_i_search_visit_near_or_home(sunder_i_search *search, double reach, s
 /* From now on pairs that are left in conflict are eased: the cost includes the price of what they lack, and programs
  * have a constraint for each. False if memory is out. */
 bool sunder_i_search_ease(sunder_i_search *search);
+/* The same for the pairs that this search relaxed, in place of those of the model. */
+bool sunder_i_search_ease_own(sunder_i_search *search);
 /* The price of what pairs lack at the moves t; 0 if no pairs are eased. */
 double sunder_i_search_shortfall_price(sunder_i_search *search, const double *t);
 /* Adds a priced constraint to the program for each pair that lacks something at the present moves. */

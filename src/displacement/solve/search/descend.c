@@ -15,7 +15,6 @@
 
 #include "base/extremes.h"
 #include "base/invariant.h"
-#include "base/union_find.h"
 #include "base/watch.h"
 
 #include <math.h>
@@ -355,7 +354,7 @@ static outcome run_round(descent *d)
     if (is_free) return ON;
     d->idle = v > d->missed / 2 ? d->idle + 1 : 0;
     d->missed = sunder_i_min(d->missed, v);
-    return ++d->clashing >= s->clashing || d->idle >= MOST_IDLE ? IN_VAIN : ON;
+    return ++d->clashing >= MOST_CLASHING || d->idle >= MOST_IDLE ? IN_VAIN : ON;
 }
 
 /* Runs rounds from s->t until one gains little or the descent is given up. Returns whether s->t is free of clashes
@@ -403,56 +402,6 @@ bool sunder_i_search_repair(sunder_i_search *search)
         memcpy(search->t, search->next, 2 * search->n * sizeof *search->t);
     }
     return left <= search->tolerance && !search->failed;
-}
-
-/* ---- Where it ended in a compromise ------------------------------------------------------------------------------ */
-
-/* Joins bodies that share a constraint; a body that does not move joins none. */
-static void join_constrained(const sunder_i_search *s, uint32_t *root)
-{
-    sunder_i_union_init(root, s->n);
-    for (size_t k = 0; k < s->program.n; k++) {
-        const sunder_i_constraint *c = &s->program.constraint[k];
-        if (c->i != SUNDER_I_GROUND && c->j != SUNDER_I_GROUND) sunder_i_union_join(root, c->i, c->j);
-    }
-}
-
-/* Are all bodies that have a constraint in one component? */
-static bool is_one_component(const sunder_i_search *s, uint32_t *root)
-{
-    uint32_t first = SUNDER_I_NOBODY;
-    for (size_t k = 0; k < s->program.n; k++) {
-        const sunder_i_constraint *c = &s->program.constraint[k];
-        const uint32_t of = sunder_i_union_find(root, c->j == SUNDER_I_GROUND ? c->i : c->j);
-        if (first != SUNDER_I_NOBODY && of != first) return false;
-        first = of;
-    }
-    return true;
-}
-
-void sunder_i_search_settle_components(sunder_i_search *search)
-{
-    uint32_t *root = sunder_i_alloc(search->n, sizeof *root);
-    bool *unsolved = sunder_i_calloc(search->n, sizeof *unsolved);
-    search->failed = search->failed || !root || !unsolved;
-    if (!search->failed) sunder_i_search_constrain(search, search->gap, false);
-    if (!search->failed) {
-        /* A component without a solution does not keep the others from being solved. */
-        join_constrained(search, root);
-        search->program.most_cost = is_one_component(search, root) ? most_cost(search) : 0;
-        solve_lazily(search, 0);
-        join_constrained(search, root);
-        for (size_t k = 0; k < search->program.n; k++) {
-            const sunder_i_constraint *c = &search->program.constraint[k];
-            const uint32_t of = c->j == SUNDER_I_GROUND ? c->i : c->j;
-            if (c->give == 0 && !(sunder_i_stretch(c, search->next) >= c->d - search->tolerance))
-                unsolved[sunder_i_union_find(root, of)] = true;
-        }
-        for (uint32_t k = 0; k < search->n; k++)
-            if (search->mass[k] > 0 && !unsolved[sunder_i_union_find(root, k)])
-                memcpy(search->t + 2 * k, search->next + 2 * k, 2 * sizeof *search->t);
-    }
-    sunder_i_free_all(root, unsolved);
 }
 
 void sunder_i_search_descend_or_stay(sunder_i_search *search)

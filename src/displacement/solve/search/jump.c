@@ -7,7 +7,8 @@
 #include <math.h>
 #include <string.h>
 
-void sunder_i_search_clip(sunder_i_search *search)
+/* Shortens moves that exceed their limits. */
+static void clip_moves(sunder_i_search *search)
 {
     for (size_t k = 0; k < search->n; k++) {
         const double limit = sunder_i_search_limit(search, (uint32_t)k),
@@ -37,7 +38,7 @@ static uint32_t find_room(sunder_i_search *s, const sunder_i_clash *clash, bool 
 bool sunder_i_search_jump(sunder_i_search *search)
 {
     search->program.n = 0; /* its forces belong to the former places */
-    sunder_i_search_clip(search);
+    clip_moves(search);
     bool *stuck = sunder_i_calloc(search->n, sizeof *stuck);
     if (!stuck) search->failed = true;
     if (!search->failed) sunder_i_search_find_clashes(search, search->t);

@@ -23,23 +23,13 @@ static bool begins_at_home(const sunder_i_search *s, const double *start)
     return limited;
 }
 
-/* Moves all bodies to `start`, and relaxes all pairs that clash there. Returns whether nothing clashes then. */
-static bool give_up_all(sunder_i_search *s, const double *start, const sunder_i_clash *at_home, size_t n)
-{
-    memcpy(s->t, start, 2 * s->n * sizeof *s->t);
-    s->program.n = 0;
-    for (size_t k = 0; k < n && !s->failed; k++) sunder_i_search_relax(s, at_home[k].i, at_home[k].j);
-    if (!s->failed && !sunder_i_relaxations_index(&s->relaxations, s->model)) s->failed = true;
-    return !s->failed && sunder_i_search_find_clashes(s, s->t) <= s->tolerance;
-}
-
 /* Pushes, descends, and pushes again, as long as that restores a fair number of pairs. Returns whether the first push
- * left more than `share` of them relaxed. */
-static bool push_all(sunder_i_search *s, double share)
+ * left more than the share LEFT_AT_HOME of them relaxed. */
+static bool push_all(sunder_i_search *s)
 {
     const size_t all = s->relaxations.n;
     sunder_i_search_push_back(s);
-    if (s->failed || (double)s->relaxations.n <= share * (double)all) return false;
+    if (s->failed || (double)s->relaxations.n <= LEFT_AT_HOME * (double)all) return false;
     for (size_t before = all; before - s->relaxations.n > before / LEAST_PUSHED && !s->failed;) {
         before = s->relaxations.n;
         sunder_i_search_descend_or_stay(s);
@@ -49,14 +39,14 @@ static bool push_all(sunder_i_search *s, double share)
 }
 
 bool sunder_i_search_push_from_home(sunder_i_search *search, const double *start, const sunder_i_clash *at_home,
-                                    size_t n, double share)
+                                    size_t n)
 {
-    if (search->n < CROWD || n == 0 || !begins_at_home(search, start)) return false;
+    if (n == 0 || !begins_at_home(search, start)) return false;
     double *stood = sunder_i_search_copy_moves(search);
     if (search->failed) return false;
     const sunder_i_relaxations given_up = search->relaxations;
     memset(&search->relaxations, 0, sizeof search->relaxations);
-    const bool done = give_up_all(search, start, at_home, n) && push_all(search, share);
+    const bool done = sunder_i_search_relax_at_home(search, at_home, n) && push_all(search);
     sunder_i_relaxations other = done ? given_up : search->relaxations;
     if (!done) {
         search->relaxations = given_up;

@@ -74,14 +74,9 @@ bool sunder_i_search_attempt(sunder_i_search *search, double *best, double *cost
 /* For a layout search->t with tiny violations: finds the nearest layout without violations that keeps the sides of all
  * pairs; cheaper layouts are not looked for. True if there is one, which search->t is then. */
 bool sunder_i_search_repair(sunder_i_search *search);
-/* A compromise violates distances everywhere, where sides contradict each other and where they do not. This solves the
- * hard program of each component of the constraints by itself. The bodies of components with a solution take it. */
-void sunder_i_search_settle_components(sunder_i_search *search);
 
 /* ---- jump.c: out of clashes -------------------------------------------------------------------------------------- */
 
-/* Shortens moves that exceed their limits. */
-void sunder_i_search_clip(sunder_i_search *search);
 /* Moves clashing bodies one by one to free positions, until the patience ends. True if no clash is left. */
 bool sunder_i_search_jump(sunder_i_search *search);
 /* The same with a small patience of its own, which may end before all bodies were tried. */
@@ -96,10 +91,9 @@ bool sunder_i_search_spread(sunder_i_search *search);
 
 /* ---- give_up.c: pairs that no solution was found for ------------------------------------------------------------- */
 
-/* For a search that ended with clashes: relaxes pairs that clash in the original places until nothing clashes, and
- * descends from there. The new relaxations are in search->relaxations. start: [2 n] the moves that the search began
- * with. */
-void sunder_i_search_give_up(sunder_i_search *search, const double *start);
+/* For a search that ended with clashes: solves the cluster but for pairs that clash in the original places, as few as
+ * it can, and relaxes these. The new relaxations are in search->relaxations. */
+void sunder_i_search_give_up(sunder_i_search *search);
 /* As sunder_i_search_give_up(), before any other search, for a large crowd with limits that begins in its original
  * places and has almost no room. False, with nothing changed, if it is no such crowd, as far as pushing shows. */
 bool sunder_i_search_give_up_at_home(sunder_i_search *search, const double *start);
@@ -112,6 +106,15 @@ bool sunder_i_search_relax(sunder_i_search *search, uint32_t i, uint32_t j);
  * memory is out. */
 sunder_i_clash *sunder_i_search_at_home(sunder_i_search *search, size_t *n);
 
+/* ---- elastic.c --------------------------------------------------------------------------------------------------- */
+
+/* Moves all bodies to their original places and relaxes the n pairs that clash there. Returns whether nothing clashes
+ * then; it does not unless memory is out. */
+bool sunder_i_search_relax_at_home(sunder_i_search *search, const sunder_i_clash *at_home, size_t n);
+/* Solves the cluster from the original places, where n pairs clash; each of these may fall short of its distance, and
+ * is relaxed if it does. False if memory is out. */
+bool sunder_i_search_fall_short(sunder_i_search *search, const sunder_i_clash *at_home, size_t n);
+
 /* ---- yield.c ----------------------------------------------------------------------------------------------------- */
 
 /* Until nothing clashes by more than `hair`: relaxes a clashing pair that is one of the n pairs at_home and not relaxed
@@ -120,12 +123,11 @@ void sunder_i_search_yield(sunder_i_search *search, const sunder_i_clash *at_hom
 /* Moves body i to its original place. Returns whether it stood elsewhere and may move. */
 bool sunder_i_search_send_home(sunder_i_search *search, uint32_t i);
 
-/* ---- take_back.c: and asked for again ---------------------------------------------------------------------------- */
+/* ---- push_back.c ------------------------------------------------------------------------------------------------- */
 
 /* From a layout without clashes: demands the full distance again of each pair that this search relaxed, one after the
- * other. A pair for which there is a solution is no longer relaxed. */
-void sunder_i_search_take_back(sunder_i_search *search);
-/* As sunder_i_search_take_back(), by pushing alone (pushed.c). */
+ * other, and pushes the bodies in the way straight on (pushed.c). A pair for which there is room is no longer
+ * relaxed. */
 void sunder_i_search_push_back(sunder_i_search *search);
 
 /* ---- common_moves.c ---------------------------------------------------------------------------------------------- */
@@ -144,10 +146,10 @@ bool sunder_i_search_mend_few(sunder_i_search *search);
 /* ---- push_from_home.c -------------------------------------------------------------------------------------------- */
 
 /* For a crowd in its original places, where n pairs clash: relaxes all of them, and restores by pushing those for which
- * there is room. False, with nothing changed, if at most `share` of them stay relaxed, since there may be more room
- * than pushing shows; or if it is no such crowd. */
+ * there is room. False, with nothing changed, if at most the share LEFT_AT_HOME of them stays relaxed, since there may
+ * be more room than pushing shows; or if a body stands elsewhere, or none has a limit. */
 bool sunder_i_search_push_from_home(sunder_i_search *search, const double *start, const sunder_i_clash *at_home,
-                                    size_t n, double share);
+                                    size_t n);
 
 /* ---- pair_margin.c ----------------------------------------------------------------------------------------------- */
 

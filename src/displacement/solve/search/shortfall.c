@@ -44,9 +44,9 @@ static bool add_pair(sunder_i_search *s, uint32_t i, uint32_t j)
     return true;
 }
 
-bool sunder_i_search_ease(sunder_i_search *search)
+/* Lists the pairs of the search that these relaxations are about. False if memory is out. */
+static bool list_pairs(sunder_i_search *search, const sunder_i_relaxations *all)
 {
-    const sunder_i_relaxations *all = &search->model->relaxations;
     bool ok = true;
     search->shortfalls = search->creditor.n = 0;
     for (uint32_t i = 0; i < search->n && ok; i++) {
@@ -66,6 +66,10 @@ bool sunder_i_search_ease(sunder_i_search *search)
     }
     return ok;
 }
+
+bool sunder_i_search_ease(sunder_i_search *search) { return list_pairs(search, &search->model->relaxations); }
+
+bool sunder_i_search_ease_own(sunder_i_search *search) { return list_pairs(search, &search->relaxations); }
 
 /* ---- How much ---------------------------------------------------------------------------------------------------- */
 

@@ -230,7 +230,7 @@ static void ask_whether_cheapest(void *state)
 static void give_up(void *state)
 {
     solving *x = state;
-    sunder_i_search_give_up(x->s, x->move);
+    sunder_i_search_give_up(x->s);
     x->given_up = true;
 }
 

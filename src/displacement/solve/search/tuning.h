@@ -8,7 +8,7 @@
 
 /* SUNDER_I_SEARCH_TUNING_VERSION is the version of the values below. It is raised with each change of a value, so that
  * a record can name the values by their version (tests/house/TUNING). */
-#define SUNDER_I_SEARCH_TUNING_VERSION 6
+#define SUNDER_I_SEARCH_TUNING_VERSION 7
 
 /* ---- One descent (descend.c, constrain.c, limits.c) -------------------------------------------------------------- */
 
@@ -133,46 +133,21 @@
 #define FEWEST_MEASURES 64
 #define MOST_MEASURES 4096
 
-/* ---- Pairs given up (give_up.c, take_back.c, push_from_home.c) --------------------------------------------------- */
+/* ---- Pairs given up (elastic.c, give_up.c, push_back.c, push_from_home.c) ---------------------------------------- */
 
-/* In a connected set of clashes, the pairs are given up first that miss at least the share FIRST_SHARE of what the
- * worst pair misses. The share is divided by MORE each time. */
-#define FIRST_SHARE 0.5
-#define MORE 1.5
-/* Outside crowds a later descent gives up after CLASHING_AGAIN rounds with a clash, since the compromise is near.
- * Blocks of 32 houses take a fifth less total time with 2 than with 12, and leave 728 pairs of a town instead of
- * 764. */
-#define CLASHING_AGAIN 2
-/* Giving up pairs may bring the work of the search to GIVE_UP_TIMES what it was before, by at most GIVE_UP_MOST, plus
- * the work of one descent. A crowd of 70 houses between two roads takes three descents, each as expensive as all
- * before, to find which 24 of its 150 conflicts to give up; if the last descent is cut short, all conflicts are given
- * up. A crowd may therefore take GIVE_UP_OF_CROWD, whatever it took before. A hundred symbols, a tenth of them without
- * room, take a dozen descents, most of which fail, and those are the expensive ones. When these were cut short, 700
- * pairs were given up instead of 13, and asking for them again took longer in the end. */
-#define GIVE_UP_TIMES 8
-#define GIVE_UP_MOST 400000000u
-#define GIVE_UP_OF_CROWD 1600000000u
-/* A crowd starts from the solutions of its parts if at most one in FEW_LEFT of the pairs that clash at home clashes
- * there. */
-#define FEW_LEFT 3
-/* From there the set that is given up grows by rings of neighbours around the clashes, at most MOST_RINGS times. */
-#define MOST_RINGS 8
-/* A cluster of at least CROWD bodies is a crowd: a descent takes more work there than retries may (retry_cluster.c); in
- * smaller clusters retries do better. What a descent gave up is asked for again, with TAKE_BACK_EACH work for each pair
- * of bodies and TAKE_BACK_MOST in all. With less, or more, for each pair a crowd of 70 houses ends with up to half as
- * many pairs again given up. */
-#define CROWD 48
-#define TAKE_BACK_EACH 8000000u
-#define TAKE_BACK_MOST 200000000u
-/* Pairs are first asked for together with up to TAKE_BACK_FEW bodies around them, until TAKE_BACK_FEW_IN_VAIN in a row
- * fail. They are then asked for with the whole cluster, until TAKE_BACK_IN_VAIN in a row fail; the rest is left to
- * retries. In ten crowds of a town of terraces the whole cluster alone granted 85 of 263 pairs for 1e9 steps, and few
- * bodies alone 128 of 259 for 5e7. In the crowds of Germany within 12 km few bodies alone leave 715 symbols, and few
- * bodies followed by the whole cluster leave 20. After 8 failures instead of 2 it is 22, and 656 pairs of the terraces
- * instead of 665, in a third more total time. */
-#define TAKE_BACK_FEW 32
-#define TAKE_BACK_FEW_IN_VAIN 32
-#define TAKE_BACK_IN_VAIN 2
+/* A pair that lacks s pays w (DEAR R s + DEAR_SQUARE s^2): R is the lesser limit, w the lesser weight of its bodies. A
+ * move of length r <= R costs w r^2, so it pays to push some sixteen bodies as far as their limits. With 8 or 64 in
+ * place of 32 the corpus of the ablation keeps as many conflicts. */
+#define DEAR 32
+#define DEAR_SQUARE 3.2
+/* A pair that lacks the share MUCH_MISSING of what the worst lacks has half the price in the next descent. There are at
+ * most MOST_DISCOUNTS of these. In a grid of 400 squares, limit 5 m, 522 pairs are left without them, 438 after two and
+ * 435 after four; with 0.02 in place of 0.3 it is 471. */
+#define MUCH_MISSING 0.3
+#define MOST_DISCOUNTS 3
+/* A descent at prices ends with a round that gains less than the share SETTLED_AT_PRICES. With 1e-4 a grid of 1,600
+ * squares takes a third longer and keeps as many pairs. */
+#define SETTLED_AT_PRICES 1e-2
 /* Lines between two bodies are recomputed once the two have moved by the share PUSHED_STALE of the greatest violation
  * (pushed_lines.c). A body is not pushed if the component of its line's normal along the path is at most PUSHED_BESIDE
  * (pushed.c). */
@@ -190,11 +165,8 @@
  * reach thousands of others without success. */
 #define PUSHED_MOST 100000000u
 #define PUSHED_EACH 40000u
-/* A crowd that has more than the share LEFT_BY_PUSHING given up after pushing has almost no room. Grids of squares keep
- * two in three, and symbols one in ten; for symbols a compromise tells better what to give up. If nothing else was
- * tried yet, the share has to exceed LEFT_AT_HOME: grids of thousands keep four in five. Pushing is repeated as long as
- * it takes back more than one in LEAST_PUSHED of the rest. */
-#define LEFT_BY_PUSHING 0.5
+/* A crowd that has more than the share LEFT_AT_HOME given up after pushing has almost no room: grids of thousands keep
+ * four in five. Pushing is repeated as long as it takes back more than one in LEAST_PUSHED of the rest. */
 #define LEFT_AT_HOME 0.75
 #define LEAST_PUSHED 64
 /* If a level takes back less than one in LEAST_OF_LEVEL, all remaining pairs are asked for at once. A grid of 20,000
@@ -373,8 +345,7 @@
  * otherwise Paris at gap 3 ends, by chance, 11 % more expensive, and at gap 0 0.3 % cheaper. */
 #define CHEAP_OTHER 0.9
 #define MOST_FORESEEN 12
-/* A start with violations of at most MENDED tolerances, which rounding causes, is repaired. Violations up to this size
- * do not count as clashes (give_up.c). */
+/* A start with violations of at most MENDED tolerances, which rounding causes, is repaired. */
 #define MENDED 8
 
 /* ---- The cheapest of all (cheapest.c) ---------------------------------------------------------------------------- */

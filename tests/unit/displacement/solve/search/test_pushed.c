@@ -188,7 +188,7 @@ static void test_crowd(void **state)
         sunder_i_clash *at_home = sunder_i_search_at_home(&s, &n);
         assert_non_null(at_home);
         assert_int_equal(n, 60);
-        assert_int_equal(sunder_i_search_push_from_home(&s, b.move, at_home, n, 0.5), !roomy);
+        assert_int_equal(sunder_i_search_push_from_home(&s, b.move, at_home, n), !roomy);
         assert_int_equal(s.relaxations.n, roomy ? 0 : 57);
         free(at_home);
         end_row(&b, &s);

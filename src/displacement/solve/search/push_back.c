@@ -1,13 +1,6 @@
-/* Pairs that a search has given up are asked for again, one after the other, from its present layout.
- *
- * Several pairs are given up at once (give_up.c), and in a connected set some are given up in place of others: with the
- * rest out of the way they may have a solution. So the full distance is demanded again of each two bodies with given-up
- * pairs, overlaps first, then those that miss least. Each is first tried with a few bodies around it, while all others
- * stand (neighbourhood.c), which succeeds for most that can succeed and costs little. The remaining ones are tried with
- * the whole cluster, which descends from its present layout; if that does not end within its limit of work all bodies
- * return. Each of these two stages ends after a number of failures in a row. At last all remaining pairs are tried by
- * pushing the bodies in the way straight on (pushed.c), hundreds if need be, which needs no program. */
-#include "displacement/solve/search/neighbourhood.h"
+/* Pairs that a search has given up are asked for again, one after the other, from its present layout: the full distance
+ * is demanded of each two bodies with given-up pairs, overlaps first, then those that miss least, by pushing the bodies
+ * in the way straight on (pushed.c), hundreds if need be. That needs no program. */
 #include "displacement/solve/search/pushed.h"
 #include "displacement/solve/search/search_stages.h"
 #include "displacement/solve/search/tuning.h"
@@ -16,7 +9,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #define HALF_WAY 0.70710678118654752440 /* cosine and sine of 45 degrees */
 
@@ -62,77 +54,11 @@ static bool is_between(const sunder_i_search *s, const sunder_i_relaxation *t, c
     return (p == w->i && q == w->j) || (p == w->j && q == w->i);
 }
 
-/* Ends the relaxations between the two bodies of the wish in this search. waive_pair() makes them valid again. */
+/* Ends the relaxations between the two bodies of the wish in this search. */
 static void claim_pair(sunder_i_search *s, const sunder_i_relaxations *all, const wish *w)
 {
     for (size_t k = 0; k < all->n; k++)
         if (is_between(s, &all->item[k], w)) sunder_i_relaxations_remove(&s->relaxations, s->model, &all->item[k]);
-}
-
-static void waive_pair(sunder_i_search *s, const sunder_i_relaxations *all, const wish *w)
-{
-    for (size_t k = 0; k < all->n && !s->failed; k++)
-        if (is_between(s, &all->item[k], w) && !sunder_i_relaxations_insert(&s->relaxations, s->model, &all->item[k]))
-            s->failed = true;
-}
-
-/* Descends with all bodies from the present layout; on failure they return. stand: [2 n] scratch. */
-static bool settle_whole(sunder_i_search *s, double *stand)
-{
-    const size_t size = 2 * s->n * sizeof *stand;
-    memcpy(stand, s->t, size);
-    s->program.n = 0;
-    s->patience = sunder_i_search_work(s) + TAKE_BACK_EACH;
-    const bool done = sunder_i_search_descend(s);
-    s->patience = UINT64_MAX;
-    if (!done) memcpy(s->t, stand, size);
-    return done;
-}
-
-/* Tries each wish with a few bodies around the pair. Keeps the wishes that were not granted at the front of the list
- * and returns their number. */
-static size_t ask_few(sunder_i_search *s, const sunder_i_relaxations *all, wish *list, size_t n)
-{
-    sunder_i_neighbourhood about;
-    size_t left = 0;
-    unsigned in_vain = 0; /* failures in a row */
-    if (!sunder_i_neighbourhood_init(&about, s)) s->failed = true;
-    for (size_t k = 0; k < n; k++) {
-        const wish w = list[k];
-        bool granted = false;
-        if (in_vain < TAKE_BACK_FEW_IN_VAIN && !s->failed) {
-            claim_pair(s, all, &w);
-            granted =
-                sunder_i_neighbourhood_settle(&about, sunder_i_search_place_of(s, w.i),
-                                              sunder_i_search_place_of(s, w.j), TAKE_BACK_FEW, s->gap + 2 * w.missing);
-            if (!granted) waive_pair(s, all, &w);
-            in_vain = granted ? 0 : in_vain + 1;
-        }
-        if (!granted) list[left++] = w;
-    }
-    sunder_i_neighbourhood_free(&about);
-    return left;
-}
-
-/* Tries each wish with all bodies, until TAKE_BACK_IN_VAIN fail in a row or the work exceeds TAKE_BACK_MOST. Keeps the
- * wishes that were not granted at the front of the list and returns their number. stand: [2 n] scratch. */
-static size_t ask_whole(sunder_i_search *s, const sunder_i_relaxations *all, wish *list, size_t n, double *stand)
-{
-    const uint64_t end = sunder_i_search_work(s) + TAKE_BACK_MOST;
-    size_t left = 0;
-    unsigned in_vain = 0; /* failures in a row */
-    for (size_t k = 0; k < n; k++) {
-        const wish w = list[k];
-        bool granted = false;
-        if (in_vain < TAKE_BACK_IN_VAIN && !s->failed && sunder_i_search_work(s) < end) {
-            claim_pair(s, all, &w);
-            granted = settle_whole(s, stand);
-            if (!granted) waive_pair(s, all, &w);
-            in_vain = granted ? 0 : in_vain + 1;
-        }
-        if (!granted) list[left++] = w;
-    }
-    return left;
 }
 
 /* ---- By pushing -------------------------------------------------------------------------------------------------- */
@@ -201,31 +127,19 @@ static size_t ask_pushed(sunder_i_search *s, const sunder_i_relaxations *all, wi
 
 /* ---- All of it --------------------------------------------------------------------------------------------------- */
 
-static void take_back(sunder_i_search *s, const sunder_i_relaxations *all, wish *list, bool by_pushing_alone)
-{
-    double *stand = sunder_i_alloc(2 * s->n, sizeof *stand);
-    s->failed = s->failed || !stand;
-    list_wishes(s, all, list);
-    const size_t some = by_pushing_alone ? all->relaxed_n : ask_few(s, all, list, all->relaxed_n);
-    const size_t left = by_pushing_alone ? some : ask_whole(s, all, list, some, stand);
-    ask_pushed(s, all, list, left);
-    sunder_i_free(stand);
-}
-
-static void begin_take_back(sunder_i_search *s, bool by_pushing_alone)
+void sunder_i_search_push_back(sunder_i_search *search)
 {
     sunder_i_relaxations all = {0};
-    for (size_t k = 0; k < s->relaxations.n && !s->failed; k++)
-        if (!sunder_i_relaxations_add(&all, &s->relaxations.item[k])) s->failed = true;
-    if (!s->failed && !sunder_i_relaxations_index(&all, s->model)) s->failed = true;
+    for (size_t k = 0; k < search->relaxations.n && !search->failed; k++)
+        if (!sunder_i_relaxations_add(&all, &search->relaxations.item[k])) search->failed = true;
+    if (!search->failed && !sunder_i_relaxations_index(&all, search->model)) search->failed = true;
     wish *list = sunder_i_alloc(all.relaxed_n, sizeof *list);
-    s->failed = s->failed || !list;
-    s->patience = UINT64_MAX;
-    if (!s->failed) take_back(s, &all, list, by_pushing_alone);
+    search->failed = search->failed || !list;
+    search->patience = UINT64_MAX;
+    if (!search->failed) {
+        list_wishes(search, &all, list);
+        ask_pushed(search, &all, list, all.relaxed_n);
+    }
     sunder_i_relaxations_free(&all);
     sunder_i_free(list);
 }
-
-void sunder_i_search_take_back(sunder_i_search *search) { begin_take_back(search, false); }
-
-void sunder_i_search_push_back(sunder_i_search *search) { begin_take_back(search, true); }

@@ -1,17 +1,15 @@
-/* displacement/solve/search/take_back: pairs that a search gave up and that have a solution are restored, the smallest
+/* displacement/solve/search/push_back: pairs that a search gave up and that have a solution are restored, the smallest
  * violation first, and nothing else is changed. displacement/solve/search/pair_margin: a pair that is left in
  * conflict gets a margin if there is room for one. */
 #include "scene_board.h"
 
 #include "displacement/solve/search/search_stages.h"
-#include "displacement/solve/search/tuning.h"
 
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -54,7 +52,7 @@ static void test_taken_back(void **state)
     relax(&b, &s.relaxations, 2, 3);
     relax(&b, &s.relaxations, 4, 5);
     relax(&b, &s.relaxations, 5, 6);
-    sunder_i_search_take_back(&s);
+    sunder_i_search_push_back(&s);
     assert_false(s.failed);
     assert_null(sunder_i_relaxations_find(&s.relaxations, 0, 1));
     assert_non_null(sunder_i_relaxations_find(&s.relaxations, 2, 3));
@@ -83,79 +81,12 @@ static void test_stranger(void **state)
     assert_true(sunder_i_search_init(&s, &b.of.model, b.body, 2, margin, b.move));
     relax(&b, &s.relaxations, 0, 1);
     relax(&b, &s.relaxations, 1, 2);
-    sunder_i_search_take_back(&s);
+    sunder_i_search_push_back(&s);
     assert_false(s.failed);
-    assert_int_equal(s.relaxations.n, 0);
+    assert_null(sunder_i_relaxations_find(&s.relaxations, 0, 1));
+    assert_non_null(sunder_i_relaxations_find(&s.relaxations, 1, 2));
     sunder_i_search_free(&s);
     scene_board_end(&b);
-}
-
-/* `in_vain` pairs that overlap by 2 and cannot be separated; then one that overlaps by 3 and can, but only sideways,
- * since fixed boxes are on both sides, so pushing fails. Is the last pair tried at all? */
-static bool is_asked_after(size_t in_vain)
-{
-    const double last = 100 * (double)in_vain;
-    scene_board b;
-    memset(&b, 0, sizeof b);
-    scene_begin(&b.scene, 0);
-    for (size_t k = 0; k < 2 * (in_vain + 1); k++)
-        scene_add_box(&b.scene, 100 * (double)(k / 2) + (k % 2 ? k / 2 < in_vain ? 8 : 7 : 0), 0, 10, 10)->max_shift =
-            k / 2 < in_vain ? 0.5 : 12;
-    scene_add_box(&b.scene, last - 10, 0, 10, 10)->fixed = true;
-    scene_add_box(&b.scene, last + 17, 0, 10, 10)->fixed = true;
-    scene_board_begin(&b);
-    sunder_i_search s;
-    assert_true(sunder_i_search_init(&s, &b.of.model, b.body, b.scene.n, margin, b.move));
-    for (uint32_t k = 0; k <= in_vain; k++) relax(&b, &s.relaxations, 2 * k, 2 * k + 1);
-    sunder_i_search_take_back(&s);
-    assert_false(s.failed);
-    const bool asked = s.relaxations.n == in_vain;
-    assert_true(asked || s.relaxations.n == in_vain + 1);
-    sunder_i_search_free(&s);
-    scene_board_end(&b);
-    return asked;
-}
-
-/* The same, except that the last pair can only be solved by pushing a row of bodies that have no other place to go to;
- * at the end of the row is a slope along which its last body has to move up. */
-static bool is_whole_asked_after(size_t in_vain, size_t row)
-{
-    scene_board b;
-    memset(&b, 0, sizeof b);
-    scene_begin(&b.scene, 0);
-    for (size_t k = 0; k < 2 * in_vain; k++)
-        scene_add_box(&b.scene, 100 * (double)(k / 2) + (k % 2 ? 8 : 0), 100, 10, 10)->max_shift = 0.5;
-    for (size_t k = 0; k < row; k++) {
-        sunder_feature *f = scene_add_box(&b.scene, k ? 10.001 * (double)k - 3 : 0, 0, 10, 10);
-        f->max_shift = 4;
-        f->fixed = k == 0;
-    }
-    char slope[128];
-    const double end = 10.001 * (double)(row - 1) + 7.001;
-    snprintf(slope, sizeof slope, "POLYGON ((%.3f 0, %.3f 0, %.3f 20))", end, end + 40, end + 40);
-    scene_add(&b.scene, slope)->fixed = true;
-    b.scene.feature[2 * in_vain + row - 1].max_shift = 6;
-    scene_board_begin(&b);
-    sunder_i_search s;
-    assert_true(sunder_i_search_init(&s, &b.of.model, b.body, b.scene.n, margin, b.move));
-    for (uint32_t k = 0; k < in_vain; k++) relax(&b, &s.relaxations, 2 * k, 2 * k + 1);
-    relax(&b, &s.relaxations, (uint32_t)(2 * in_vain), (uint32_t)(2 * in_vain + 1));
-    sunder_i_search_take_back(&s);
-    assert_false(s.failed);
-    const bool asked = s.relaxations.n == in_vain;
-    sunder_i_search_free(&s);
-    scene_board_end(&b);
-    return asked;
-}
-
-static void test_in_vain(void **state)
-{
-    (void)state;
-    assert_true(is_asked_after(TAKE_BACK_FEW_IN_VAIN - 1));
-    assert_false(is_asked_after(TAKE_BACK_FEW_IN_VAIN));
-    assert_true(is_whole_asked_after(TAKE_BACK_IN_VAIN - 1, TAKE_BACK_FEW + 4));
-    assert_false(is_whole_asked_after(TAKE_BACK_IN_VAIN, TAKE_BACK_FEW + 4));
-    assert_true(is_whole_asked_after(TAKE_BACK_IN_VAIN, TAKE_BACK_FEW - 4)); /* few bodies take part, so it is tried */
 }
 
 /* If two pairs cannot both be solved, the one with the smaller violation is restored, whatever the order of the list.
@@ -177,7 +108,7 @@ static void test_least_first(void **state)
         assert_true(sunder_i_search_init(&s, &b.of.model, b.body, b.scene.n, margin, b.move));
         relax(&b, &s.relaxations, 0, 1);
         relax(&b, &s.relaxations, 1, 2);
-        sunder_i_search_take_back(&s);
+        sunder_i_search_push_back(&s);
         assert_false(s.failed);
         assert_true((sunder_i_relaxations_find(&s.relaxations, 0, 1) == NULL) == !mirrored);
         assert_true((sunder_i_relaxations_find(&s.relaxations, 1, 2) == NULL) == mirrored);
@@ -234,9 +165,9 @@ static void test_no_room_for_a_margin(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_taken_back), cmocka_unit_test(test_stranger),
-        cmocka_unit_test(test_in_vain),    cmocka_unit_test(test_least_first),
-        cmocka_unit_test(test_eased),      cmocka_unit_test(test_no_room_for_a_margin),
+        cmocka_unit_test(test_taken_back),  cmocka_unit_test(test_stranger),
+        cmocka_unit_test(test_least_first), cmocka_unit_test(test_eased),
+        cmocka_unit_test(test_no_room_for_a_margin),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
