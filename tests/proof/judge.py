@@ -138,54 +138,32 @@ class Judge:
             if shaken or k >= len(before["pieces"]) or piece != before["pieces"][k]:
                 if self.contradicts_piece(tree, piece):
                     return f"piece {k} forbids what is allowed"
-        own, changed, cut = [], set(), set()  # nodes that are new; that claim something else; whose regions differ
-        for k, node in enumerate(line["nodes"]):
-            old = before["nodes"][k] if k < len(before["nodes"]) and not shaken else {}
-            if node["parent"] in cut or any(node[key] != old.get(key) for key in ("parent", "cuts")):
-                cut.add(k)
-            if node != old and not shaken:
-                own.append(k)
-            if k in cut or node != old or (node["parent"] in changed and "by" not in node):
-                changed.add(k)
-        springs = line.get("springs", [])
-        first = [len(springs)]
-        for node in line["nodes"]:
-            first.append(first[-1] + len(node["cuts"]))
-        cuts = springs + [c for node in line["nodes"] for c in node["cuts"]]
-        parents = {node["parent"] for node in line["nodes"]}
-        below = sorted(changed - set(own))
-        for k in own[:MOST_NODES] + random.Random(1).sample(below, min(len(below), MOST_NODES)):
-            wrong = self.wrong_with_node(tree, k, cuts, first, k not in parents)
+        said, now = [] if shaken else claims_of(before), claims_of(line)
+        own = {k: [claim for claim in claims if k >= len(said) or claim not in said[k]] for k, claims in enumerate(now)}
+        changed = [k for k, claims in own.items() if claims]
+        nodes = line["nodes"]
+        altered = [k for k in changed if k < len(said) and nodes[k] != before["nodes"][k]][:MOST_NODES]
+        others = [k for k in changed if k not in altered]
+        for k in altered + random.Random(1).sample(others, min(len(others), MOST_NODES)):
+            wrong = next((what for what in (self.wrong_with_claim(tree, *claim) for claim in own[k]) if what), None)
             if wrong:
                 return f"node {k}: {wrong}"
-        for parent in {line["nodes"][k]["parent"] for k in changed} - {None}:
-            children = [n["cuts"] for n in line["nodes"] if n["parent"] == parent]
-            if len(children) > 1 and self.leaves_out([own[:2] for own in children]):
+        for parent in {nodes[k]["parent"] for k in changed} - {None}:
+            children = [n["cuts"] for n in nodes if n["parent"] == parent]
+            if len(children) > 1 and self.leaves_out([cuts[:2] for cuts in children]):
                 return f"node {parent}: a place that is in no cone"
         return None
 
-    def wrong_with_node(self, tree, k, cuts, first, is_last):
-        nodes = tree.line["nodes"]
-        node, above, at = nodes[k], [], nodes[k]["parent"]
-        while at is not None:
-            above += range(first[at], first[at + 1])
-            at = nodes[at]["parent"]
-        for c in range(first[k], first[k + 1]):
-            cut, earlier = cuts[c], [cuts[m] for m in above] + cuts[first[k]:c]
-            if cut["kind"] == "hull":
-                if self.finds_place(tree, cut["i"], cut["j"], earlier, cut):
-                    return "a hull takes away what is allowed"
-            elif cut["kind"] == "disc":
-                parent = nodes[k]["parent"]
-                by = node["by"] if "by" in node else nodes[parent]["forces"]
-                if tree.finds_moves([cuts[m] for m, f in by if m in above], cut):
-                    return "a disc takes away what is cheap"
-            elif cut["kind"] == "limit" and self.is_kept_by_limit(tree, cut):
-                return "a limit's cut takes away what the limit leaves"
-        if "empty" in node:
-            if self.finds_place(tree, node["empty"]["i"], node["empty"]["j"], [cuts[m] for m in above] + cuts[first[k]:first[k + 1]], None):
-                return "an empty node is not"
-        elif is_last and tree.finds_moves([cuts[m] for m in above] + cuts[first[k]:first[k + 1]], None):
+    def wrong_with_claim(self, tree, kind, told, premises):
+        if kind == "hull" and self.finds_place(tree, told["i"], told["j"], premises, told):
+            return "a hull takes away what is allowed"
+        if kind == "disc" and tree.finds_moves(premises, told):
+            return "a disc takes away what is cheap"
+        if kind == "limit" and self.is_kept_by_limit(tree, told):
+            return "a limit's cut takes away what the limit leaves"
+        if kind == "empty" and self.finds_place(tree, told["i"], told["j"], premises, None):
+            return "an empty node is not"
+        if kind == "leaf" and tree.finds_moves(premises, None):
             return "there are cheaper moves"
         return None
 
@@ -284,6 +262,32 @@ class Judge:
             if not any(keeps(w, u) for w in ways) and verdict.may(node, self.on_lattice(u)):
                 return True
         return False
+
+
+def claims_of(line):
+    """The claims of each node of a tree, as (kind, what it is about, the cuts that it presupposes). The forces of a leaf and
+    the pieces of a hull are reasons, and no part of the claim."""
+    nodes, first = line["nodes"], [len(line.get("springs", []))]
+    for node in nodes:
+        first.append(first[-1] + len(node["cuts"]))
+    every = [None] * first[0] + [cut for node in nodes for cut in node["cuts"]]
+    parents, found = {node["parent"] for node in nodes}, []
+    for k, node in enumerate(nodes):
+        above, at = [], node["parent"]
+        while at is not None:
+            above += range(first[at], first[at + 1])
+            at = nodes[at]["parent"]
+        by = node["by"] if "by" in node else nodes[node["parent"]]["forces"] if above else []
+        forced = [every[m] for m, _ in by if m in above]
+        path = [every[m] for m in above]
+        claims = [("disc", cut, forced) if cut["kind"] == "disc" else (cut["kind"], cut, path + node["cuts"][:c])
+                  for c, cut in enumerate(node["cuts"])]
+        if "empty" in node:
+            claims.append(("empty", node["empty"], path + node["cuts"]))
+        elif k not in parents:
+            claims.append(("leaf", None, path + node["cuts"]))
+        found.append(claims)
+    return found
 
 
 class TreeOf:
