@@ -53,6 +53,7 @@ forge_generated() {
     make_short
     make_row
     make_bays
+    make_shut
     forged through houses.gpkg --gap 1 --max-shift 1 --no-blocks --barrier through.gpkg
     forged free houses.gpkg --gap 2 --no-blocks
     forged side wall.gpkg --no-blocks --fixed-where 'w = 1 AND fid = 2' --barrier side.gpkg
@@ -74,6 +75,7 @@ forge_generated() {
     forged row row.gpkg --gap 3 --rows auto --fixed-where 'w = 3' --weight-field w
     forged bays bays.gpkg --gap 5 --max-shift 1 --rows auto
     forged squeezed squeezed.gpkg --gap 5 --max-shift 20 --fixed-where 'w = 3' --rows auto
+    only='"within"' forged shut shut.gpkg --barrier shut_in.gpkg
     forged shares squares.gpkg --gap 3 --effort 0
     small_worlds 30 41 55 156 200 226 261 386 518 549 618 634 652 655 663 673 692 705 755 980 1047 1129 1136 1171 1228 1466
 }

@@ -258,3 +258,10 @@ make_arcs() {
     printf 'WKT,w\n"COMPOUNDCURVE((-10 4,0 4),CIRCULARSTRING(0 4,10 7,20 4))",1\n' | layer bow_street.gpkg street GEOMETRY
     ogr2ogr chords.gpkg bow_street.gpkg -nlt CONVERT_TO_LINEAR 2>/dev/null || fail "ogr2ogr: bow_street.gpkg"
 }
+
+# A house without a limit, in a room between three lines that is too small for it.
+make_shut() {
+    make_rings shut.gpkg '-1 -1,1 -1,1 1,-1 1'
+    printf 'WKT,w\n"LINESTRING(%s)",1\n"LINESTRING(%s)",1\n"LINESTRING(%s)",1\n' '-6 -1,6 -1' '1 -1,-3 7' '-1 -5,4 10,-2 -2' |
+        layer shut_in.gpkg shut_in LINESTRING
+}

@@ -15,8 +15,12 @@ leaf no_room still
 leaf row
 leaf side
 leaf side behind
+leaf side within
+leaf side within behind
 leaf unresolved crowded
 leaf unresolved crowded behind
+leaf unresolved crowded within
+leaf unresolved crowded within behind
 node
 node by
 node by empty
@@ -67,11 +71,15 @@ question side area barrier segment apart
 question side area barrier segment in touch
 question side shadow c point barrier segment
 question side shadow point barrier segment
+question side within area barrier segment in touch
+question side within shadow point barrier segment
 question unresolved crowded area area apart
 question unresolved crowded area area in touch
 question unresolved crowded area barrier area in touch
 question unresolved crowded area barrier segment apart
 question unresolved crowded area barrier segment in touch
+question unresolved crowded within area barrier segment in touch
+question unresolved crowded within shadow point barrier segment
 springs
 tree a body of 1
 tree a body of 2
@@ -84,8 +92,10 @@ verdict barrier fixed
 verdict barrier max_shift proof
 verdict barrier no_room proof
 verdict barrier side proof
+verdict barrier side proof within
 verdict barrier unresolved
 verdict barrier unresolved proof crowded
+verdict barrier unresolved proof crowded within
 verdict barrier_drawn max_shift proof
 verdict barrier_drawn no_room proof
 verdict barrier_drawn side proof
