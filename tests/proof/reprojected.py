@@ -1,14 +1,17 @@
-"""Barriers in another CRS than the layer: their coordinates are those that ogr2ogr writes to a file."""
+"""Barriers in another CRS than the layer: their coordinates are those that ogr2ogr writes to a file. Their arcs become polylines
+before that, in their own CRS."""
+import tempfile
+
 from form import NotRead
-from sources import converted
+from sources import converted, write
 
 
 def in_crs_of(crs, layer, source):
     """The features of the layer, with coordinates in the CRS. The rings and their numbers of corners may not
     change."""
-    if layer.arcs:
-        raise NotRead(f"arcs of {layer.name} in another CRS")
-    there = converted(["-t_srs", target(crs), source.path, layer.name], layer.name).features
+    with tempfile.TemporaryDirectory() as directory:
+        path = write(["-nlt", "CONVERT_TO_LINEAR", source.path, layer.name], layer.name, directory) if layer.arcs else source.path
+        there = converted(["-t_srs", target(crs), path, layer.name], layer.name).features
     for fid, (attributes, *chains) in layer.features.items():
         moved = there[fid][1:]
         if shape_of(moved) != shape_of(chains):

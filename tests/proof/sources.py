@@ -21,15 +21,20 @@ def is_geopackage(path):
 def converted(words, name):
     """The only layer of the GeoPackage that ogr2ogr makes with these arguments; under that name."""
     with tempfile.TemporaryDirectory() as directory:
-        to = os.path.join(directory, "there.gpkg")
-        words = ["ogr2ogr", "-q", "-f", "GPKG", "-preserve_fid", "-dim", "XY", *(["-nln", name] if name else []), to, *words]
-        try:
-            done = subprocess.run(words, capture_output=True, text=True, check=False)
-        except OSError as why:
-            raise NotRead(f"this is read by ogr2ogr, which does not run: {why}") from None
-        if done.returncode:
-            raise NotRead(f"ogr2ogr does not read {words[-1]}: {done.stderr.strip()}")
-        return table(to, name)
+        return table(write(words, name, directory), name)
+
+
+def write(words, name, directory):
+    """Makes a GeoPackage in the directory with ogr2ogr, and returns its path."""
+    to = os.path.join(directory, "there.gpkg")
+    words = ["ogr2ogr", "-q", "-f", "GPKG", "-preserve_fid", "-dim", "XY", *(["-nln", name] if name else []), to, *words]
+    try:
+        done = subprocess.run(words, capture_output=True, text=True, check=False)
+    except OSError as why:
+        raise NotRead(f"this is read by ogr2ogr, which does not run: {why}") from None
+    if done.returncode:
+        raise NotRead(f"ogr2ogr does not read {words[-1]}: {done.stderr.strip()}")
+    return to
 
 
 def table(path, name, where=None):
