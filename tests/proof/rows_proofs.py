@@ -1,6 +1,6 @@
-"""Proofs about layers with rows: python3 rows_proofs.py SUNDER SEED LAYERS.
+"""Proofs about layers with rows: python3 rows_proofs.py SUNDER SEED PROOFS.
 
-Draws streets, terraces and greens with roads and houses that never move, weights, limits and stiffnesses, and lets check_proof.py check
+Draws layers until the proofs of that number of them name rows. Draws streets, terraces and greens with roads and houses that never move, weights, limits and stiffnesses, and lets check_proof.py check
 the proofs of each with --rows auto. Then it changes what a file says of rows, one thing at a time, and demands that this is refused.
 """
 import copy
@@ -184,16 +184,16 @@ def answer(checker, lines):
     return check_proof.answer(checker, lambda: json.loads(json.dumps(lines)))
 
 
-def main(sunder, seed, layers):
-    wrong, asked, with_rows, trees, refused = [], {}, 0, 0, 0
-    for k in range(layers):
-        rng = random.Random(seed + k)
+def main(sunder, seed, proofs):
+    wrong, asked, layers, with_rows, trees, refused = [], {}, 0, 0, 0, 0
+    while with_rows < proofs:
+        rng = random.Random(seed + layers)
         checker, lines, words = proved(sunder, rng)
         status, said = answer(checker, lines)
+        at, layers, with_rows = f"seed {seed + layers}, {' '.join(words)}", layers + 1, with_rows + bool(rows_in(lines))
         if status:
-            wrong.append(f"seed {seed + k}, {' '.join(words)}: {said}")
+            wrong.append(f"{at}: {said}")
             continue
-        with_rows += bool(rows_in(lines))
         trees += sum(1 for t in trees_in(lines) if "springs" in t or any(p.get("row") for p in t["pieces"]))
         for name, mutate in UNTRUE.items():
             mutated = copy.deepcopy(lines)
@@ -203,10 +203,10 @@ def main(sunder, seed, layers):
             status, said = answer(checker, mutated)
             refused += status == 1
             if status != 1 or "not in the form" in said:
-                wrong.append(f"seed {seed + k}, {' '.join(words)}: {name}: {said}")
+                wrong.append(f"{at}: {name}: {said}")
     for line in wrong[:20]:
         print(line)
-    print(f"{layers} layers, {with_rows} with rows, {trees} trees about rows; {refused} untruths refused: "
+    print(f"{layers} layers, {with_rows} with rows, {trees} trees about rows; {refused} of {sum(asked.values())} untruths refused: "
           + ", ".join(f"{n} {name}" for name, n in asked.items()))
     missing = set(UNTRUE) - set(asked)
     if missing:
