@@ -11,7 +11,11 @@
  * First it is asked whether there is no solution at all, which is so for most conflicts. A solution that is found is
  * rarely free in doubles, since it touches what is in its way. So the next questions demand a margin: from all
  * barriers; and if no such place is free, only from those that the body is not in conflict with, since on a straight
- * road there is no margin to be had from a conflict on either side. */
+ * road there is no margin to be had from a conflict on either side.
+ *
+ * A lone body that is in no conflict stands at the nearest place that is free with a margin. If a place is nearer that
+ * is free without a margin, and an exact check allows it, the body goes there. An example is a corridor exactly as wide
+ * as the body. */
 #include "displacement/layer/rounding.h"
 #include "displacement/prove/proofs/feasibility.h"
 #include "displacement/solve/clusters/cluster_stages.h"
@@ -204,6 +208,42 @@ static sunder_status place_body(lone_body *l, sunder_error *err)
     return status;
 }
 
+/* Has the body moved, without a limit and beside barriers, while all other bodies of its cluster are fixed? */
+static bool has_moved_alone(const sunder_i_solver *s, uint32_t b)
+{
+    const sunder_i_model *model = &s->model;
+    const double *at = model->move + 2 * (size_t)b;
+    const sunder_i_cluster *c = sunder_i_solver_cluster_of(s, b);
+    size_t movable = 0;
+    if (!c || !sunder_i_may_move(&model->body[b]) || sunder_i_limit_of(&model->body[b]) < INFINITY) return false;
+    for (size_t k = 0; k < c->n; k++) movable += sunder_i_may_move(&model->body[c->body[k]]);
+    return movable == 1 && (at[0] != 0 || at[1] != 0);
+}
+
+/* Moves a body in no conflict to the first place that is free without a margin, if that is nearer by a share of NEARER
+ * or more. */
+static sunder_status move_nearer(sunder_i_solver *s, uint32_t body, sunder_error *err)
+{
+    const double *at = s->model.move + 2 * (size_t)body;
+    double place[NEARER_PLACES][2], to[2];
+    size_t n;
+    sunder_i_reading reading;
+    sunder_i_reads_begin(&reading, &s->model, body);
+    const bool ok = sunder_i_cluster_free_places(&s->model, body, hypot(at[0], at[1]) * (1 - NEARER), NEARER_PLACES,
+                                                 place, &n);
+    sunder_i_reads_end(&reading);
+    sunder_status status = ok ? SUNDER_OK : sunder_i_failure_cause(err);
+    for (size_t k = 0; k < n && !status; k++) {
+        sunder_i_trial there = {.solver = s, .along = 3};
+        sunder_i_round_move(&s->model, body, place[k], to, NULL);
+        status = sunder_i_trial_take(&there, body) ? SUNDER_OK : sunder_i_failure_cause(err);
+        if (!status) status = sunder_i_trial_place(&there, to, err);
+        if (there.well) n = 0;
+        sunder_i_trial_free(&there);
+    }
+    return status;
+}
+
 sunder_status sunder_i_solver_place_lone_bodies(sunder_i_solver *solver, sunder_error *err)
 {
     const size_t bodies = solver->model.bodies, most = solver->start.n; /* no conflict is new */
@@ -215,7 +255,10 @@ sunder_status sunder_i_solver_place_lone_bodies(sunder_i_solver *solver, sunder_
     sunder_status status = SUNDER_OK;
     if (!lone || !l.required || !l.overlaps || !mark_lone_bodies(solver, lone)) status = sunder_i_failure_cause(err);
     for (l.body = 0; l.body < bodies && !status; l.body++)
-        if (lone[l.body]) status = place_body(&l, err);
+        if (lone[l.body])
+            status = place_body(&l, err);
+        else if (has_moved_alone(solver, l.body))
+            status = move_nearer(solver, l.body, err);
     sunder_i_free_all(lone, l.required, l.overlaps);
     return status;
 }

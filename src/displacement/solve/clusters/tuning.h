@@ -6,7 +6,7 @@
 
 /* SUNDER_I_CLUSTERS_TUNING_VERSION is the version of the values below. It is raised with each change of a value, so
  * that a record can name the values by their version (tests/house/TUNING). */
-#define SUNDER_I_CLUSTERS_TUNING_VERSION 7
+#define SUNDER_I_CLUSTERS_TUNING_VERSION 8
 
 /* ---- Rounds (settle.c, clusters.c) ------------------------------------------------------------------------------- */
 
@@ -101,6 +101,10 @@
 #define LONE_EFFORT 4000000u
 #define LONE_GROWTH 8
 #define LONE_REACHES 4
+/* A lone body that is in no conflict tries at most NEARER_PLACES places that are free without a margin and nearer by a
+ * share of NEARER or more. A smaller share is the margin itself. */
+#define NEARER_PLACES 8 /* fixed: the size of an array */
+#define NEARER 0x1p-20
 
 /* ---- Questions about one conflict (spared_pairs.c) --------------------------------------------------------------- */
 

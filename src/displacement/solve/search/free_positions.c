@@ -494,3 +494,14 @@ size_t sunder_i_search_free_body_anywhere(sunder_i_search *s, uint32_t i, double
 {
     return find_free_places(s, i, limit, beyond_all(s, i), true, most, places);
 }
+
+bool sunder_i_cluster_free_places(const sunder_i_model *model, uint32_t body, double limit, size_t most,
+                                  double (*places)[2], size_t *n)
+{
+    sunder_i_search s;
+    bool ok = sunder_i_search_init(&s, model, &body, 1, 0, model->move + 2 * (size_t)body);
+    *n = ok && limit > 0 ? sunder_i_search_free_body_anywhere(&s, 0, limit, most, places) : 0;
+    ok = ok && !s.failed;
+    sunder_i_search_free(&s);
+    return ok;
+}
