@@ -6,6 +6,7 @@ a lattice 2^16 times as fine as the layer's, and the test is stricter by that ro
 true.
 """
 import math
+from itertools import combinations
 
 FINE = 1 << 16
 MOST_STEPS = 200_000
@@ -138,7 +139,7 @@ class Beyond:
     """All places with n.u < d, which the rule of rows forbids; the line as line_of() makes it."""
 
     def __init__(self, line):
-        self.line = line
+        self.line, self.corners, self.shadow = line, (), False
 
     def holds(self, fine, corner):
         (a, b, c), (x, y, w) = self.line, corner
@@ -182,9 +183,20 @@ def halves(places):
     return (mx, my), (a * FINE, b * FINE, a * mx + b * my)
 
 
+def common_rays(pieces):
+    """The lines through the origin along which two shadows of segments have a common border. Halving would not find them."""
+    ends, found = [p for piece in pieces if len(piece.corners) == 2 and piece.shadow for p in piece.corners], []
+    for p, q in combinations(ends, 2):
+        if p[0] * q[1] == p[1] * q[0] and p[0] * q[0] + p[1] * q[1] > 0 and not any(a * p[0] + b * p[1] == 0 for a, b, _ in found):
+            found.append((p[1], -p[0], 0))
+    return found
+
+
 def is_covered(region, pieces):
     """Is all of the region in the union of the pieces?"""
     todo, steps, last = [region], 0, None
+    for a, b, c in common_rays(pieces):
+        todo = [clip(part, line) for part in todo for line in ((a, b, c), (-a, -b, -c))]
     while todo:
         part = todo.pop()
         if not part:
@@ -216,7 +228,6 @@ def root_above(n, d):
 
 def is_nowhere(lines):
     """Is there no place with a X + b Y < c for all of these (at most three) lines? Exact, by the lemma of Farkas."""
-    from itertools import combinations
     for p, q in combinations(lines, 2):
         if p[0] * q[1] == p[1] * q[0] and p[0] * q[0] + p[1] * q[1] < 0:
             s, t = abs(q[0]) + abs(q[1]), abs(p[0]) + abs(p[1])

@@ -5,7 +5,7 @@
 
 /* SUNDER_I_GEOMETRY_TUNING_VERSION is the version of the values below. It is raised with each change of a value, so
  * that a record can name the values by their version (tests/house/TUNING). */
-#define SUNDER_I_GEOMETRY_TUNING_VERSION 1
+#define SUNDER_I_GEOMETRY_TUNING_VERSION 2
 
 /* ---- Free places (grown_obstacles.c, free_places.c, cells.c) ----------------------------------------------------- */
 
@@ -70,5 +70,16 @@
  * initial number of slots. */
 #define MOST_EDGES 131072u
 #define FEWEST_SLOTS 64u
+
+/* ---- Corners that two sides share (side_chord.c) ----------------------------------------------------------------- */
+
+/* A chord cuts off the share CHORD of the two sides, or a larger one, and passes beyond the corner by the share BEYOND
+ * of the corner's distance. Both are far more than rounding and the gaps between the shadows, and too small to
+ * matter. */
+#define CHORD 0x1p-16
+#define BEYOND 0x1p-24
+/* A chord is looked for if the anchor's path passes the corner at no more than the share BESIDE of the path's length to
+ * it. */
+#define BESIDE 0x1p-20
 
 #endif

@@ -33,6 +33,10 @@
 void sunder_i_forbidden_free(sunder_i_forbidden *forbidden)
 {
     sunder_i_free_all(forbidden->piece, forbidden->edge, forbidden->tree.box);
+    for (sunder_i_chord_piece *chord = forbidden->chord, *next; chord; chord = next) {
+        next = chord->next;
+        sunder_i_free(chord);
+    }
     *forbidden = (sunder_i_forbidden){0};
 }
 
@@ -405,13 +409,18 @@ static bool add_all(listing *l)
     return l->model->rules.jumps || (add_shadows_from(l, l->p, l->q, false) && add_shadows_from(l, l->q, l->p, true));
 }
 
+static void set_bodies(listing *l, uint32_t p, uint32_t q)
+{
+    l->p = &l->model->body[p];
+    l->q = &l->model->body[q];
+    for (size_t c = 0; c < 2; c++) l->offset[c] = l->q->origin[c] - l->p->origin[c];
+}
+
 /* Sets up the listing. Returns false if memory is out. */
 static bool begin_listing(listing *l, uint32_t p, uint32_t q)
 {
     *l->out = (sunder_i_forbidden){0};
-    l->p = &l->model->body[p];
-    l->q = &l->model->body[q];
-    for (size_t c = 0; c < 2; c++) l->offset[c] = l->q->origin[c] - l->p->origin[c];
+    set_bodies(l, p, q);
     for (size_t c = 0; c < 4; c++) l->window[c] = c < 2 ? -l->reach : l->reach;
     l->of_p = sunder_i_pieces_of(l->model, l->p);
     l->of_q = sunder_i_pieces_of(l->model, l->q);
@@ -422,7 +431,7 @@ static void end_listing(listing *l, double reach)
 {
     sunder_i_forbidden *f = l->out;
     sunder_i_free_all(l->scratch.xy, l->drawn, l->hull);
-    f->size = 2 * reach;
+    f->size = sunder_i_max(f->size, 2 * reach);
     for (size_t k = 0; k < f->pieces; k++)
         for (size_t c = 0; c < 4; c++) f->size = sunder_i_max(f->size, fabs(f->piece[k].box[c]));
     f->grain = 0x1p-46 * f->size;
@@ -479,5 +488,35 @@ bool sunder_i_forbidden_with_covers(sunder_i_forbidden *forbidden, const sunder_
         .out = forbidden, .model = model, .waived = &none, .reach = reach, .most = most, .diagonal_covers = true};
     const bool ok = begin_listing(&l, p, q) && add_all(&l);
     end_listing(&l, reach);
+    return ok;
+}
+
+bool sunder_i_forbidden_add_shadow(sunder_i_forbidden *forbidden, const sunder_i_model *model, uint32_t p, uint32_t q,
+                                   double reach, const sunder_i_body_piece *a, const sunder_i_body_piece *b)
+{
+    listing l = {.out = forbidden, .model = model, .reach = reach};
+    set_bodies(&l, p, q);
+    const bool ok = add_shadow(&l, a, b);
+    end_listing(&l, reach);
+    return ok;
+}
+
+bool sunder_i_forbidden_add_chord(sunder_i_forbidden *forbidden, const sunder_i_model *model, uint32_t mover,
+                                  uint32_t part, bool swapped, double reach, const sunder_i_body_piece *anchor,
+                                  const double at[4], const uint32_t side[2])
+{
+    const sunder_i_body *body = &model->body[part];
+    const size_t before = forbidden->pieces;
+    sunder_i_chord_piece *made = sunder_i_calloc(1, sizeof *made);
+    if (!made) return false;
+    made->piece = (sunder_i_body_piece){.corner = made->corner, .corners = 2, .feature = model->member[body->member]};
+    for (size_t k = 0; k < 4; k++) made->corner[k] = at[k] - body->origin[k & 1];
+    sunder_i_box_of_segment(made->corner, made->corner + 2, made->piece.box);
+    made->next = forbidden->chord;
+    forbidden->chord = made;
+    const bool ok = swapped
+                        ? sunder_i_forbidden_add_shadow(forbidden, model, part, mover, reach, &made->piece, anchor)
+                        : sunder_i_forbidden_add_shadow(forbidden, model, mover, part, reach, anchor, &made->piece);
+    if (ok && forbidden->pieces > before) memcpy(forbidden->piece[before].side, side, 2 * sizeof *side);
     return ok;
 }

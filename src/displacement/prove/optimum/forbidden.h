@@ -16,17 +16,26 @@ typedef struct sunder_i_forbidden_piece {
     bool row;                         /* it is the half-plane of the rule of rows; a and b are any pieces of the two */
     double clearance; /* NAN: the full distance is required; else the clearance to which the pair is held instead
                        * (layer/requirement.h) */
+    uint32_t side[2];         /* if they differ: it is the shadow of a chord, and lies in these two pieces */
     double radius, vague;
     double box[4];            /* of the grown K */
     double middle[2], within; /* a disc around `middle` with radius `within` that lies in the grown K, up to rounding;
                                * none if within <= 0 */
 } sunder_i_forbidden_piece;
 
+/* A chord between the shadows of two sides of a barrier (geometry/side_chord.h), as a piece of one of its parts. */
+typedef struct sunder_i_chord_piece {
+    sunder_i_body_piece piece;
+    double corner[4];
+    struct sunder_i_chord_piece *next;
+} sunder_i_chord_piece;
+
 typedef struct sunder_i_forbidden {
     sunder_i_forbidden_piece *piece;
     size_t pieces, piece_capacity;
     sunder_i_obstacle_edge *edge;
     size_t edges, edge_capacity;
+    sunder_i_chord_piece *chord; /* a list; owned */
     sunder_i_box_tree tree; /* over the pieces, if they are many; else its box is NULL */
     double size;            /* a bound of the coordinates of the grown pieces and of points that are tested */
     double grain;           /* more than the rounding error of a point, distance or product of that size */
@@ -76,6 +85,16 @@ bool sunder_i_forbidden_init_near(sunder_i_forbidden *forbidden, const sunder_i_
  * about `most` pieces at most: the list is complete only if there are no more. */
 bool sunder_i_forbidden_with_covers(sunder_i_forbidden *forbidden, const sunder_i_model *model, uint32_t p, uint32_t q,
                                     double reach, size_t most);
+/* Adds the shadow made of a piece of body p and one of body q, one of which is an anchor, as far as it is within
+ * `reach` of u = 0. A part of the same barrier may stand for one of the two bodies. The pieces must not have been
+ * sorted into a tree of boxes. Returns false if memory is out. */
+bool sunder_i_forbidden_add_shadow(sunder_i_forbidden *forbidden, const sunder_i_model *model, uint32_t p, uint32_t q,
+                                   double reach, const sunder_i_body_piece *a, const sunder_i_body_piece *b);
+/* Adds the shadow of a chord from an anchor of body `mover` in the same way; the anchor is of the first body unless
+ * `swapped`. at: its ends, in coordinates of the layer; side: the pieces of the shadows of its two sides. */
+bool sunder_i_forbidden_add_chord(sunder_i_forbidden *forbidden, const sunder_i_model *model, uint32_t mover,
+                                  uint32_t part, bool swapped, double reach, const sunder_i_body_piece *anchor,
+                                  const double at[4], const uint32_t side[2]);
 void sunder_i_forbidden_free(sunder_i_forbidden *forbidden);
 
 /* ---- shut_in.c --------------------------------------------------------------------------------------------------- */

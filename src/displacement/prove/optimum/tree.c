@@ -122,6 +122,7 @@ static bool examine_node(sunder_i_tree *t, uint32_t node, double *leaf)
             return false;
         }
         sunder_i_tree_find_conflicts(t);
+        if (t->conflicts == 0 && !t->failed && sunder_i_tree_add_chords(t)) sunder_i_tree_find_conflicts(t);
         if (t->conflicts == 0 && !t->failed) sunder_i_tree_find_outside_conflicts(t);
         if (t->failed) return false;
         if (t->conflicts == 0) {

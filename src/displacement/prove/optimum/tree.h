@@ -7,6 +7,8 @@
 #include "displacement/prove/optimum/region.h"
 #include "sunder_proof.h"
 
+#include <math.h>
+
 /* The task: minimise sum w_i |t_i - a_i|^2, and the cost of springs between the bodies, over the moves of n bodies for
  * which no pair of them is in its forbidden set. */
 typedef struct sunder_i_task {
@@ -77,6 +79,12 @@ typedef struct sunder_i_tree_pair {
     sunder_i_region region; /* at the present node */
     double slackness;       /* 1 / w_i + 1 / w_j, rounded upwards */
 } sunder_i_tree_pair;
+
+/* Returns how far from u = 0 the pieces of a pair are listed. */
+static inline double sunder_i_tree_pair_reach(const sunder_i_tree_pair *p)
+{
+    return fabs(p->centre[0]) + fabs(p->centre[1]) + 2 * p->reach;
+}
 
 typedef struct sunder_i_open {
     double value;
@@ -169,12 +177,20 @@ void sunder_i_tree_lower_goal(sunder_i_tree *tree, double goal);
 
 /* ---- tree_pairs.c ------------------------------------------------------------------------------------------------ */
 
+/* Returns the pair of bodies i < j, made at its first use; NULL if memory is out. */
+sunder_i_tree_pair *sunder_i_tree_find_pair(sunder_i_tree *tree, uint32_t i, uint32_t j);
 /* Sets tree->conflict to the pairs in conflict at program.t. */
 void sunder_i_tree_find_conflicts(sunder_i_tree *tree);
 /* Looks for conflicts with bodies that do not take part. A body that is in no group becomes a guest, and takes part
  * from now on, as long as there is room for guests; all others are appended to tree->joins. Without task.group_of it
  * does nothing. */
 void sunder_i_tree_find_outside_conflicts(sunder_i_tree *tree);
+
+/* ---- tree_chords.c ----------------------------------------------------------------------------------------------- */
+
+/* Adds chords to pairs of a body and a barrier: those across ends of two sides that a side anchor passes on its way to
+ * its place at program.t. Returns true if any was added. */
+bool sunder_i_tree_add_chords(sunder_i_tree *tree);
 
 /* ---- tree_node.c ------------------------------------------------------------------------------------------------- */
 

@@ -100,6 +100,13 @@ static bool is_covered(sunder_i_tree *t, const sunder_i_tree_pair *p, const sund
     }
     if (f->pieces) memset(t->used, 0, f->pieces * sizeof *t->used);
     if (!sunder_i_region_is_covered(region, f, t->used, gap, &t->steps)) return false;
+    /* Instead of a chord its two sides are named, from which it follows. */
+    for (uint32_t k = 0; k < f->pieces; k++) {
+        const uint32_t *side = f->piece[k].side;
+        if (!t->used[k] || side[0] == side[1]) continue;
+        t->used[side[0]] = t->used[side[1]] = true;
+        t->used[k] = false;
+    }
     *named = (uint32_t)t->named.n;
     for (uint32_t k = 0; k < f->pieces; k++)
         if (t->used[k] && !sunder_i_list_push(&t->named, k)) t->failed = true;

@@ -31,8 +31,7 @@ static void set_root(const sunder_i_tree *t, sunder_i_tree_pair *p)
 
 static uint32_t *place_of(sunder_i_tree *t, uint32_t i, uint32_t j) { return &t->pair_at[(size_t)i * t->capacity + j]; }
 
-/* Returns the pair of bodies i and j, made at its first use; NULL if memory is out. */
-static sunder_i_tree_pair *find_pair(sunder_i_tree *tree, uint32_t i, uint32_t j)
+sunder_i_tree_pair *sunder_i_tree_find_pair(sunder_i_tree *tree, uint32_t i, uint32_t j)
 {
     uint32_t *at = place_of(tree, i, j);
     if (*at != UINT32_MAX) return &tree->pair[*at];
@@ -44,7 +43,7 @@ static sunder_i_tree_pair *find_pair(sunder_i_tree *tree, uint32_t i, uint32_t j
     *p = (sunder_i_tree_pair){.i = i, .j = j, .slackness = slackness_of(tree, i, j)};
     *at = (uint32_t)tree->pairs++;
     set_root(tree, p);
-    const double far = fabs(p->centre[0]) + fabs(p->centre[1]) + 2 * p->reach;
+    const double far = sunder_i_tree_pair_reach(p);
     const bool listed = (tree->task.no_paths ? sunder_i_forbidden_without_paths : sunder_i_forbidden_init)(
         &p->forbidden, tree->task.model, tree->task.waived, tree->task.body[i], tree->task.body[j], far);
     if (!listed || !sunder_i_forbidden_index(&p->forbidden)) tree->failed = true;
@@ -87,7 +86,7 @@ static void test_pair(sunder_i_tree *t, uint32_t i, uint32_t j)
 {
     const double *at = t->program.t;
     if (!(t->mass[i] + t->mass[j] > 0) || !are_near(t, i, j)) return;
-    const sunder_i_tree_pair *p = find_pair(t, i, j);
+    const sunder_i_tree_pair *p = sunder_i_tree_find_pair(t, i, j);
     if (!p || p->forbidden.pieces == 0) return;
     const double u[2] = {at[2 * j] - at[2 * i], at[2 * j + 1] - at[2 * i + 1]};
     const double depth = sunder_i_forbidden_depth(&p->forbidden, u);

@@ -5,7 +5,7 @@
 
 /* SUNDER_I_OPTIMUM_TUNING_VERSION is the version of the values below. It is raised with each change of a value, so that
  * a record can name the values by their version (tests/house/TUNING). */
-#define SUNDER_I_OPTIMUM_TUNING_VERSION 3
+#define SUNDER_I_OPTIMUM_TUNING_VERSION 4
 
 /* ---- Contacts (body_contact.c) ----------------------------------------------------------------------------------- */
 
@@ -226,5 +226,13 @@
 #define WALL_HAIR 0x1p-34
 #define MOST_LEGS 6
 #define LEAST_SLOPE 0.02
+
+/* ---- Chords across ends of sides (tree_chords.c) ----------------------------------------------------------------- */
+
+/* At most TREE_SPOKES sides of one part of a barrier, with ends that an anchor passes, are compared. */
+#define TREE_SPOKES 8 /* fixed: the size of an array */
+/* Two chords are added across a corner. One cuts off the share WIDE_CHORD of the sides: a tree divides better by a wide
+ * shadow. The other passes just behind the corner (CHORD). */
+#define WIDE_CHORD 0x1p-3
 
 #endif

@@ -5,7 +5,7 @@
 
 /* SUNDER_I_PROOFS_TUNING_VERSION is the version of the values below. It is raised with each change of a value, so that
  * a record can name the values by their version (tests/house/TUNING). */
-#define SUNDER_I_PROOFS_TUNING_VERSION 1
+#define SUNDER_I_PROOFS_TUNING_VERSION 2
 
 /* ---- A node's program (program.c) -------------------------------------------------------------------------------- */
 
@@ -68,13 +68,6 @@
 
 /* ---- Corners that two sides share (corner_chord.c) --------------------------------------------------------------- */
 
-/* A chord cuts off the share CHORD of the two sides, and passes beyond the corner by the share BEYOND of the corner's
- * distance. Both are far more than rounding and the gaps between the shadows, and too small to matter. */
-#define CHORD 0x1p-16
-#define BEYOND 0x1p-24
-/* A chord is looked for if the anchor's path passes the corner at no more than the share BESIDE of the path's length to
- * it. */
-#define BESIDE 0x1p-20
 /* For one move of an anchor, at most SPOKES sides of barriers with an end near its path (BESIDE) are compared to
  * find a corner that two of them share. */
 #define SPOKES 32 /* fixed: the size of an array */
