@@ -175,15 +175,25 @@ static double take_step(dual *q, double taken, double short_step)
     return along;
 }
 
+/* Two priced constraints with opposite normals both push while they give, and start as firm ones with these forces. All
+ * but the difference has to vanish, along a direction without curvature: takes a step until a force is 0. */
+static bool cancel_forces(dual *q, const direction *d, double short_step)
+{
+    const bool cancels = q->p->priced && d->slope > 0 && d->feasible < INFINITY;
+    if (cancels) {
+        take_step(q, d->feasible, short_step);
+        compute_gradient(q);
+    }
+    restart_step(q);
+    return cancels;
+}
+
 /* Makes one step in the positive forces. Returns false if it makes no progress. */
 static bool step_positive_forces(dual *q, double short_step)
 {
     const direction d = measure_step(q);
     q->is_seen = false;
-    if (!(d.curvature > 0)) {
-        restart_step(q);
-        return false;
-    }
+    if (!(d.curvature > 0)) return cancel_forces(q, &d, short_step);
     const double length = d.slope / d.curvature;
     const double along = take_step(q, sunder_i_min(length, d.feasible), short_step) / d.curvature;
     if (length <= d.feasible) {

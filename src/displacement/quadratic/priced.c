@@ -48,6 +48,7 @@ double sunder_i_quadratic_solve(sunder_i_quadratic *program, double softness, do
         list[n++] = (priced){k, c->d, c->give, false};
         c->d += c->give * c->price;
     }
+    program->priced = true;
     double missed = sunder_i_quadratic_solve_once(program, softness, tolerance, scale);
     for (int round = 0; round < MOST_STATES && missed >= 0 && missed < INFINITY && change_states(program, list, n);
          round++)

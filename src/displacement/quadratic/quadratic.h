@@ -3,6 +3,7 @@
 #ifndef SUNDER_I_QUADRATIC_H
 #define SUNDER_I_QUADRATIC_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -29,6 +30,8 @@ typedef struct sunder_i_quadratic {
     size_t n, capacity;
     double *t;           /* [2 * bodies] out: the moves */
     const double *place; /* [2 * bodies] positions in the plane, used to order the elimination; NULL: not known */
+    bool priced;         /* it has had constraints with a price, so that opposite forces may have to cancel out
+                          * (conjugate_gradients.c) */
     uint64_t work;       /* the work done, approximately in constraints processed */
     uint64_t most_work;  /* 0, or a limit of `work`, at which the method stops with the best result so far */
     double most_cost;    /* 0, or the greatest cost of a useful solution: once it is proved that every solution costs

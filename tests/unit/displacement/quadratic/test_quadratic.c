@@ -385,8 +385,10 @@ static void check_prices(void **state)
         const int n = (int)rng_int(&r, 1, MOST / 2);
         for (int k = 0; k < n; k++) {
             const uint32_t i = rng_once_in(&r, 3) ? SUNDER_I_GROUND : (uint32_t)rng_int(&r, 0, BODIES - 1);
-            const double angle = 6.3 * rng_unit(&r), u[2] = {cos(angle), sin(angle)};
-            demand(&p, i, (uint32_t)rng_int(&r, 0, BODIES - 1), u, 10 * rng_unit(&r));
+            const double angle = 6.3 * rng_unit(&r), u[2] = {cos(angle), sin(angle)}, d = 10 * rng_unit(&r);
+            const uint32_t j = (uint32_t)rng_int(&r, 0, BODIES - 1);
+            demand(&p, i, j, u, d);
+            if (k % 2 == 0) demand(&p, i, j, (double[2]){-u[0], -u[1]}, -d - 0.1 * rng_unit(&r)); /* little room */
         }
         for (size_t k = 0; k < p.q.n; k++) {
             p.constraint[k].give = 0.5 / (0.5 + 60 * rng_unit(&r));
