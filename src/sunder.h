@@ -564,6 +564,10 @@ typedef struct sunder_layer_options {
      * move, R the lesser max_shift above 0 of the two, or the distance that the pair has to keep. No pair is given up,
      * and no other one made worse, for it. Not with keep_trees. */
     double ease;
+    /* 0 (the default), or a distance greater than the gap that features are to keep if it pays: any pair may stand
+     * between the two, and is then tight. What it lacks of the full gap has the price of `ease`. The tolerance, kinks
+     * and rows are measured by the full gap. Not with keep_worlds, nor with keep_trees. */
+    double full_gap;
 } sunder_layer_options;
 
 /* Returns the distance from the box (xmin, ymin, xmax, ymax) of a feature within which barriers can decide on which
@@ -605,6 +609,8 @@ typedef struct sunder_barrier {
     double width;             /* >= 0 and finite: the full drawn width; a polygon is drawn larger by half the width */
     double gap;               /* finite: the distance from the drawn edge; negative: the gap of the layer's options */
     bool side;                /* features may not cross its lines and boundaries: see sunder_layer_separate() */
+    double full_gap; /* >= 0 and finite: options.full_gap for this barrier; 0: with a negative gap that of the options,
+                      * else none */
 } sunder_barrier;
 
 /* Sets the barriers of a layer, and removes those that it had. A feature and a barrier are one pair, whatever the
@@ -659,12 +665,14 @@ typedef enum sunder_conflict_kind {
     SUNDER_CONFLICT_SIDE,            /* the side anchor of a crossed a side of barrier b on its way, `from` - `to` */
     SUNDER_CONFLICT_JUMP,            /* a jumped over b; `from` - `to` is the way of its anchor, relative to b */
     SUNDER_CONFLICT_NOT_A_TRANSLATE, /* no move of a makes its coordinates what they are now */
-    SUNDER_CONFLICT_ROW              /* a and b do not keep their order in their row: b moved, relative to a and along
+    SUNDER_CONFLICT_ROW,             /* a and b do not keep their order in their row: b moved, relative to a and along
                                       * the row, by `distance`, and at least `required` was allowed */
+    /* The pair is no conflict: it keeps the gap, but not the full gap. It has no reason, and blocks no feature. */
+    SUNDER_CONFLICT_TIGHT
 } sunder_conflict_kind;
 
 /* "overlap", "too_close", "barrier", "barrier_drawn", "barrier_near", "contained", "duplicate", "worse", "limit",
- * "side", "jump", "not_a_translate", "row". */
+ * "side", "jump", "not_a_translate", "row", "tight". */
 SUNDER_API const char *sunder_conflict_kind_string(sunder_conflict_kind kind);
 
 typedef enum sunder_reason {
@@ -694,7 +702,7 @@ typedef struct sunder_conflict {
     double before;   /* the distance at the start */
     double depth;    /* the length of the least translation that makes the interiors disjoint in the result; 0 if they
                       * are disjoint */
-    double required; /* the gap; for a barrier its gap plus half of its width */
+    double required; /* the gap, or the full gap; for a barrier this plus half of its width */
     /* The length that is missing: required - distance, or required + depth if the interiors meet. NAN if the pair has
      * to keep no distance: inside a block, if the two may overlap, and for kinds that are not about a distance. */
     double missing;
@@ -769,6 +777,8 @@ typedef struct sunder_layer_summary {
      * in degrees, by which the line from one to the other turns. Of each the mean, and the value that 95 % of the pairs
      * do not exceed. */
     double spacing_mean, spacing_p95, turn_mean, turn_p95;
+    size_t tight; /* the pairs that are tight in the result: see options.full_gap. They are in no other count. With
+                   * options.ease short_pairs and shortfall include them. */
 } sunder_layer_summary;
 
 /* Lists the conflicts of a layer as it stands, exactly. The caller frees the report with sunder_report_free().
@@ -779,11 +789,11 @@ SUNDER_API sunder_status sunder_layer_check(const sunder_layer *layer, const sun
                                             sunder_report **out, sunder_error *err);
 
 /* Lists the rules that the moves from `before` to `after` broke, whatever program made them. The two layers have the
- * same features in the same order. Each broken rule is a conflict of the report, of one of the five kinds from
- * SUNDER_CONFLICT_WORSE on; summary.verified is true if there is none. Limits, blocks, and fixed and ignored features
- * are those of `before`; the options should be those of the run that made the moves. Two things are not checked:
- * whether the features of a block moved together, and the move of a repaired shape that was written in its repaired
- * form, which is not known.
+ * same features in the same order. Each broken rule is a conflict of the report, of one of the kinds from
+ * SUNDER_CONFLICT_WORSE to SUNDER_CONFLICT_ROW; summary.verified is true if there is none. Limits, blocks, and fixed
+ * and ignored features are those of `before`; the options should be those of the run that made the moves. Two things
+ * are not checked: whether the features of a block moved together, and the move of a repaired shape that was written in
+ * its repaired form, which is not known.
  *
  * Fails   as sunder_layer_check(), and with SUNDER_EARG for layers of different sizes */
 SUNDER_EXPERIMENTAL sunder_status sunder_layer_check_moves(const sunder_layer *before, const sunder_layer *after,

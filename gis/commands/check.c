@@ -139,7 +139,7 @@ static bool is_asked_about(const gis_moves *moves, sunder_conflict_kind kind)
 static void print_moves(const gis_moves *moves)
 {
     printf("since %s: %zu matched", gis_source_path(moves->original.source), moves->n);
-    for (sunder_conflict_kind kind = SUNDER_CONFLICT_WORSE; *sunder_conflict_kind_string(kind); kind++)
+    for (sunder_conflict_kind kind = SUNDER_CONFLICT_WORSE; kind <= SUNDER_CONFLICT_ROW; kind++)
         if (is_asked_about(moves, kind))
             printf(", %s %zu", sunder_conflict_kind_string(kind), gis_moves_count(moves, kind));
     printf(", %s %zu\n", GIS_MOVES_LOST, moves->n_lost);
@@ -156,6 +156,7 @@ static void print_counts(const check_run *run)
     if (run->summary.inside_overlaps)
         printf(" (%zu of them listed: %s)", run->summary.inside_overlaps,
                run->summary.inside_overlaps == 1 ? "it overlaps" : "they overlap");
+    if (run->request.rules.has_least_gap) printf(", tight %zu", run->summary.tight);
     putchar('\n');
 }
 
@@ -174,10 +175,19 @@ static void json_moves(gis_json *out, const gis_moves *moves)
     gis_json_key(out, "moves");
     gis_json_open(out, '{');
     gis_json_put_size(out, "matched", moves->n);
-    for (sunder_conflict_kind kind = SUNDER_CONFLICT_WORSE; *sunder_conflict_kind_string(kind); kind++)
+    for (sunder_conflict_kind kind = SUNDER_CONFLICT_WORSE; kind <= SUNDER_CONFLICT_ROW; kind++)
         if (is_asked_about(moves, kind))
             gis_json_put_size(out, sunder_conflict_kind_string(kind), gis_moves_count(moves, kind));
     gis_json_put_size(out, GIS_MOVES_LOST, moves->n_lost);
+    gis_json_close(out, '}');
+}
+
+/* Adds the key "shortfall"; it exists only with a least gap. */
+static void json_tight(gis_json *out, const check_run *run)
+{
+    gis_json_key(out, "shortfall");
+    gis_json_open(out, '{');
+    gis_json_put_size(out, "tight", run->summary.tight);
     gis_json_close(out, '}');
 }
 
@@ -192,6 +202,7 @@ static void json_check(gis_json *out, const check_run *run)
     gis_json_put_size(out, "pairs_tested", run->summary.pairs_tested);
     gis_json_key(out, "conflicts");
     gis_json_conflict_counts(out, &run->summary.before);
+    if (run->request.rules.has_least_gap) json_tight(out, run);
     if (run->options->given[OPT_BEFORE]) json_moves(out, &run->moves);
     gis_json_close(out, '}');
     gis_json_raw(out, "\n");

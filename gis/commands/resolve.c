@@ -127,6 +127,12 @@ static bool resolve_rows(const gis_options *options, gis_layer_rules *out, gis_e
     return gis_fail_usage(error, "--rows: rows are found among polygons, and the symbols of points have none");
 }
 
+bool gis_resolve_in_parts(const gis_layer_rules *rules, gis_error *error)
+{
+    return !rules->has_least_gap ||
+           gis_fail_usage(error, "a least gap needs the whole layer in memory: neither plan nor --max-memory");
+}
+
 /* Reads K or K,K_ALONG; K alone keeps the default along rows. */
 static bool resolve_stiffness(const gis_options *options, double stiffness[2], gis_error *error)
 {
@@ -156,6 +162,7 @@ static bool resolve_rules(const gis_options *options, gis_layer_rules *out, gis_
     unsigned weighting;
     *out = (gis_layer_rules){
         .gap = gis_resolve_length(options, OPT_GAP),
+        .least_gap = gis_resolve_length(options, OPT_LEAST_GAP),
         .max_shift = gis_resolve_length(options, OPT_MAX_SHIFT),
         .touch_tolerance = gis_resolve_length(options, OPT_TOUCH_TOLERANCE),
         .ignore_where = options->text[OPT_IGNORE_WHERE],
@@ -205,6 +212,34 @@ static bool resolve_barriers(const gis_options *options, gis_layer_input_request
         if (!gis_barrier_parse(list[out->barriers], &out->barrier[out->barriers], error)) return false;
     for (size_t k = 0; k < n; k++)
         if (!spare_barrier(options, out->barrier[k].dataset, error)) return false;
+    return true;
+}
+
+/* The usual price of what pairs lack. */
+static const double usual_ease = 30;
+
+/* Checks the least gaps, whose pairs have the price of --ease, or else the usual one. */
+static bool resolve_least_gaps(const gis_options *options, gis_layer_input_request *out, gis_error *error)
+{
+    gis_layer_rules *rules = &out->rules;
+    rules->has_least_gap = options->given[OPT_LEAST_GAP];
+    if (rules->has_least_gap && !options->given[OPT_GAP])
+        return gis_fail_usage(error, "--least-gap %s: there is no --gap, which pairs keep if it pays",
+                              options->text[OPT_LEAST_GAP]);
+    for (size_t k = 0; k < out->barriers; k++) {
+        const gis_barrier_request *barrier = &out->barrier[k];
+        if (!barrier->least.text) continue;
+        rules->has_least_gap = true;
+        if (!barrier->gap.text && !options->given[OPT_GAP])
+            return gis_fail_usage(error, "--barrier %s: least=%s: there is neither gap= nor --gap", barrier->dataset,
+                                  barrier->least.text);
+    }
+    if (!rules->has_least_gap || options->command->bit != GIS_SEPARATE) return true;
+    if (options->given[OPT_PROOF])
+        return gis_fail_usage(error, "--proof: a proof cannot name what pairs lack; leave out the least gap");
+    if (options->text[OPT_EASE] && !(rules->core.ease > 0))
+        return gis_fail_usage(error, "--ease no: pairs between the least gap and the gap need a price");
+    if (!options->text[OPT_EASE]) rules->core.ease = usual_ease;
     return true;
 }
 
@@ -261,7 +296,8 @@ bool gis_resolve_layer(const gis_options *options, gis_layer_input_request *out,
     if (out->symbol_size_field && !out->symbol && !out->symbol_field)
         return gis_fail_usage(error, "--symbol-size-field: there is no symbol; give --symbol or --symbol-field");
     return resolve_invalid(options, &out->invalid, error) && resolve_rules(options, &out->rules, error) &&
-           check_before(options, error) && resolve_barriers(options, out, error);
+           check_before(options, error) && resolve_barriers(options, out, error) &&
+           resolve_least_gaps(options, out, error);
 }
 
 bool gis_resolve_memory(const gis_options *options, double *bytes, gis_error *error)

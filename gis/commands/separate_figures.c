@@ -57,7 +57,7 @@ static void json_shortfall(gis_json *out, const sunder_layer_summary *summary)
     gis_json_open(out, '{');
     gis_json_put_size(out, "pairs", summary->short_pairs);
     gis_json_put_double(out, "sum", summary->shortfall);
-    gis_json_put_size(out, "tight", 0);
+    gis_json_put_size(out, "tight", summary->tight);
     gis_json_close(out, '}');
 }
 
@@ -212,8 +212,10 @@ static void print_shortfall(const gis_separate_run *run)
 {
     const sunder_layer_summary *summary = &run->summary;
     if (!(run->request.rules.core.ease > 0)) return;
-    printf("pairs that lack a part of their distance %zu, which is %.6g in sum (%s)\n", summary->short_pairs,
+    printf("pairs that lack a part of their distance %zu, which is %.6g in sum (%s)", summary->short_pairs,
            summary->shortfall, gis_separate_unit(run));
+    if (run->request.rules.has_least_gap) printf("; tight %zu", summary->tight);
+    putchar('\n');
 }
 
 bool gis_separate_print(const void *separated, gis_error *error)

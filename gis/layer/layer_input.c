@@ -202,6 +202,7 @@ static bool read_barriers(gis_layer_input *input, gis_error *error)
         .targets = targets,
         .reach = input->barrier_reach,
         .gap = input->gap,
+        .least_gap = request->rules.least_gap.text ? input->least_gap : -1,
         .invalid = request->invalid,
         .output = request->output,
         .update = request->update,

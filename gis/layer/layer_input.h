@@ -43,6 +43,7 @@ typedef struct gis_layer_input {
     bool as_chords; /* arcs are replaced by their polylines, and shapes are not enlarged to contain the arcs */
     gis_crs_units units;
     double gap, max_shift;   /* in units of the layer; max_shift = INFINITY: no limit */
+    double least_gap;        /* in units of the layer, if the rules have one */
     double tolerance;        /* in units of the layer; negative: the default */
     sunder_shape **shape;    /* [n] NULL: the feature cannot conflict */
     sunder_feature *feature; /* [n] */

@@ -34,11 +34,16 @@ bool gis_layer_lengths(gis_layer_input *input, gis_error *error)
 {
     const gis_layer_rules *rules = &input->request->rules;
     if (!gis_optional_length_in_layer_units(&rules->gap, &input->units, "--gap", &input->gap, error) ||
+        !gis_optional_length_in_layer_units(&rules->least_gap, &input->units, "--least-gap", &input->least_gap,
+                                            error) ||
         !gis_optional_length_in_layer_units(&rules->max_shift, &input->units, "--max-shift", &input->max_shift,
                                             error) ||
         !gis_optional_length_in_layer_units(&rules->touch_tolerance, &input->units, "--touch-tolerance",
                                             &input->tolerance, error))
         return false;
+    if (rules->least_gap.text && input->least_gap > input->gap)
+        return gis_fail_usage(error, "--least-gap %s: must not be greater than the gap, %s", rules->least_gap.text,
+                              rules->gap.text);
     if (input->gap > 0 && input->tolerance >= input->gap)
         return gis_fail_usage(error, "--touch-tolerance %s: must be less than the gap, %s", rules->touch_tolerance.text,
                               rules->gap.text);

@@ -27,7 +27,8 @@ sunder_layer_options gis_layer_core_options(const gis_layer_input *input)
 {
     const gis_layer_rules *rules = &input->request->rules;
     sunder_layer_options core = rules->core;
-    core.gap = input->gap;
+    core.gap = rules->least_gap.text ? input->least_gap : input->gap;
+    core.full_gap = rules->least_gap.text ? input->gap : 0;
     core.touch_tolerance = input->tolerance;
     core.no_touch = input->points && !rules->touch_tolerance.text;
     core.thin = gis_layer_thin(input);

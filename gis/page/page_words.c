@@ -15,6 +15,7 @@ const char *gis_page_kind(sunder_conflict_kind kind)
         [SUNDER_CONFLICT_BARRIER_NEAR] = "too close to a barrier",
         [SUNDER_CONFLICT_CONTAINED] = "one within the other",
         [SUNDER_CONFLICT_DUPLICATE] = "duplicate",
+        [SUNDER_CONFLICT_TIGHT] = "tight",
     };
     return (size_t)kind < N_OF(words) && words[kind] ? words[kind] : sunder_conflict_kind_string(kind);
 }

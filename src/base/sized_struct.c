@@ -8,9 +8,9 @@
 #include <string.h>
 
 _Static_assert(SUNDER_I_ENDS_WITH(sunder_sum_options, threads), "an added member must not fill padding");
-_Static_assert(SUNDER_I_ENDS_WITH(sunder_layer_options, ease), "an added member must not fill padding");
+_Static_assert(SUNDER_I_ENDS_WITH(sunder_layer_options, full_gap), "an added member must not fill padding");
 _Static_assert(SUNDER_I_ENDS_WITH(sunder_route_options, progress_user), "an added member must not fill padding");
-_Static_assert(SUNDER_I_ENDS_WITH(sunder_layer_summary, turn_p95), "an added member must not fill padding");
+_Static_assert(SUNDER_I_ENDS_WITH(sunder_layer_summary, tight), "an added member must not fill padding");
 
 void sunder_i_sized_struct_write(void *given, size_t size, const void *own, size_t own_size)
 {

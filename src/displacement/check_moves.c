@@ -139,7 +139,7 @@ static sunder_status find_rows(comparison *c, sunder_error *err)
     sunder_i_rows rows = {0};
     if (!c->model.rules.rows) return SUNDER_OK;
     sunder_status status = sunder_i_rows_find(&c->model, &rows, err);
-    if (!status) status = sunder_i_rows_make_rule(&rows, &c->start, &c->model, err);
+    if (!status) status = sunder_i_rows_make_rule(&rows, &c->placement, &c->start, &c->model, err);
     sunder_i_rows_free(&rows);
     return status;
 }
@@ -272,7 +272,7 @@ static sunder_status begin_comparison(comparison *c, const sunder_layer_options 
     if (c->before->n != c->after->n)
         return sunder_i_fail(err, SUNDER_EARG, "the layers have %zu and %zu features", c->before->n, c->after->n);
     sunder_status status = sunder_i_rules_of(options, &rules, err);
-    if (!status) status = sunder_i_barriers_make(c->before, rules.gap, &c->barriers, err);
+    if (!status) status = sunder_i_barriers_make(c->before, rules.gap, rules.full_gap, &c->barriers, err);
     if (!status) status = sunder_i_order_layer(c->before, &c->barriers, true, &c->layer, err);
     if (!status) status = sunder_i_model_init(&c->layer, &c->barriers, &rules, &c->model, err);
     if (!status) status = sunder_i_placement_init(&c->model, &c->placement, err);

@@ -45,7 +45,7 @@ static sunder_status read_layer(sunder_i_solver *s, const sunder_layer *layer, c
     sunder_i_rules rules;
     sunder_status status = sunder_i_rules_of(options, &rules, err);
     if (what_for != TO_SEPARATE) rules.trace = NULL;
-    if (!status) status = sunder_i_barriers_make(layer, rules.gap, &s->barriers, err);
+    if (!status) status = sunder_i_barriers_make(layer, rules.gap, rules.full_gap, &s->barriers, err);
     if (!status) status = sunder_i_order_layer(layer, &s->barriers, what_for == TO_CHECK, &s->layer, err);
     if (!status) status = sunder_i_model_init(&s->layer, &s->barriers, &rules, &s->model, err);
     if (!status) status = sunder_i_placement_init(&s->model, &s->placement, err);
@@ -87,7 +87,7 @@ static sunder_status find_rows(sunder_i_solver *s, sunder_error *err)
 {
     if (!s->model.rules.rows) return SUNDER_OK;
     const sunder_status status = sunder_i_rows_find(&s->model, &s->rows, err);
-    return status ? status : sunder_i_rows_make_rule(&s->rows, &s->start, &s->model, err);
+    return status ? status : sunder_i_rows_make_rule(&s->rows, &s->placement, &s->start, &s->model, err);
 }
 
 /* Does everything up to the point where the report begins. */
@@ -201,6 +201,7 @@ static sunder_status explain_result(sunder_i_solver *s, const sunder_layer_optio
     sunder_i_count_relations(&s->model, &s->now, &report->summary.after);
     sunder_status status = sunder_i_report_cover_diagonals(s, err);
     if (!status) status = sunder_i_report_conflicts(report, &s->model, &s->placement, &s->now, true, err);
+    if (!status) status = sunder_i_report_tight(report, &s->model, &s->placement, true, err);
     if (!status) status = sunder_i_report_eased(report, &s->model, err);
     if (!status) status = sunder_i_report_bound(report, s, err);
     if (!status) status = sunder_i_report_optimality(report, s, err);
@@ -226,7 +227,8 @@ static sunder_status fill_report(sunder_i_solver *s, sunder_report *report, sund
     const sunder_status status = sunder_i_report_features(report, &s->model, err);
     if (status) return status;
     sunder_i_report_moves(report, &s->model);
-    return sunder_i_report_worlds(report, s, err);
+    const sunder_status added = sunder_i_report_add_tight(report, &s->model, err);
+    return added ? added : sunder_i_report_worlds(report, s, err);
 }
 
 /* Determines the relations of moved features once more, explains the result, and then verifies that no remaining
@@ -281,6 +283,8 @@ static sunder_status check_layer(sunder_i_solver *s, const sunder_layer *layer, 
     const double began = sunder_i_now();
     sunder_status status = read_layer(s, layer, options, TO_CHECK, report, err);
     if (!status) status = sunder_i_report_conflicts(*report, &s->model, &s->placement, &s->start, false, err);
+    if (!status) status = sunder_i_report_tight(*report, &s->model, &s->placement, false, err);
+    if (!status) status = sunder_i_report_add_tight(*report, &s->model, err);
     if (!status) status = sunder_i_report_features(*report, &s->model, err);
     if (!status) status = sunder_i_report_renumber(*report, s->layer.number, err);
     if (status) return status;

@@ -347,8 +347,9 @@ static void draw(scene *s, rng *r)
         else
             draw_lines(s, r, b);
         const double w = s->unit * widths[rng_int(r, 0, 4)], g = gaps[rng_int(r, 0, 3)];
-        s->barrier[k] =
-            (sunder_barrier){{b->shape, b->lines ? b->xy : NULL, b->end, b->lines}, w, g < 0 ? g : s->unit * g, false};
+        s->barrier[k] = (sunder_barrier){{b->shape, b->lines ? b->xy : NULL, b->end, b->lines},
+                                         .width = w,
+                                         .gap = g < 0 ? g : s->unit * g};
     }
     sunder_layer_options_init(&s->options);
     s->options.gap = rng_once_in(r, 2) ? 0 : s->unit;

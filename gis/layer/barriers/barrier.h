@@ -1,7 +1,8 @@
 /* barrier.h: barriers: features of other data sources (--barrier) that never move, and to which features keep a
  * distance; passed to the core as its barriers.
  *
- * DATASET[,layer=NAME][,width=LENGTH|,width-field=FIELD][,gap=LENGTH][,side=yes|no][,as=area|boundary][,where=SQL] */
+ * DATASET[,layer=NAME][,width=LENGTH|,width-field=FIELD][,gap=LENGTH][,least=LENGTH][,side=yes|no]
+ * [,as=area|boundary][,where=SQL] */
 #ifndef GIS_BARRIER_H
 #define GIS_BARRIER_H
 
@@ -16,7 +17,7 @@
 typedef struct gis_barrier_request {
     char *text; /* owned; the other strings point into it, and are NULL if not given */
     const char *dataset, *layer, *width_field, *where;
-    gis_optional_length width, gap;
+    gis_optional_length width, gap, least;
     bool side, as_boundary;
 } gis_barrier_request;
 
@@ -54,6 +55,7 @@ typedef struct gis_barrier_surroundings {
     const gis_barrier_targets *targets; /* boxes of all features that may conflict */
     double reach;                       /* the longest move of any feature; INFINITY: unlimited */
     double gap;                         /* gap of barriers without a gap of their own */
+    double least_gap;                   /* likewise the least gap; negative: there is none */
     gis_invalid_policy invalid;
     const char *output; /* path of the output, which must not replace a barrier's dataset; NULL: none */
     bool update;        /* the output is updated, so it may be a barrier's dataset */
@@ -88,6 +90,7 @@ void gis_barriers_clear(gis_barriers *barriers);
 typedef struct gis_barrier_common {
     char *layer;     /* name of the layer; owned */
     double distance; /* distance that features keep from the barrier's edges */
+    double least;    /* distance that they have to keep at least, if it is another; else negative */
 } gis_barrier_common;
 
 /* Gets a feature, and must clear it in any case. */

@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { KEY_LAYER, KEY_WIDTH, KEY_WIDTH_FIELD, KEY_GAP, KEY_SIDE, KEY_AS, KEY_WHERE, N_KEYS };
-static const char *const keys[N_KEYS] = {"layer", "width", "width-field", "gap", "side", "as", "where"};
+enum { KEY_LAYER, KEY_WIDTH, KEY_WIDTH_FIELD, KEY_GAP, KEY_LEAST, KEY_SIDE, KEY_AS, KEY_WHERE, N_KEYS };
+static const char *const keys[N_KEYS] = {"layer", "width", "width-field", "gap", "least", "side", "as", "where"};
 
 void gis_barrier_request_clear(gis_barrier_request *request)
 {
@@ -46,8 +46,8 @@ static bool unknown_key(const char *argument, const char *word, size_t n, gis_er
         return gis_fail_usage(error, "--barrier %s: %.*s is not known; did you mean %s=?", argument, (int)n, word,
                               search.best);
     return gis_fail_usage(error,
-                          "--barrier %s: %.*s is none of layer=, width=, width-field=, gap=, side=, as=, where=; a "
-                          "comma in a name is written \\,",
+                          "--barrier %s: %.*s is none of layer=, width=, width-field=, gap=, least=, side=, as=, "
+                          "where=; a comma in a name is written \\,",
                           argument, (int)n, word);
 }
 
@@ -79,6 +79,7 @@ static bool take_value(const char *argument, int key, const char *value, gis_bar
     case KEY_WHERE: out->where = value; return true;
     case KEY_WIDTH: return take_length(argument, keys[key], value, &out->width, error);
     case KEY_GAP: return take_length(argument, keys[key], value, &out->gap, error);
+    case KEY_LEAST: return take_length(argument, keys[key], value, &out->least, error);
     case KEY_SIDE: return take_choice(argument, keys[key], value, "yes", "no", &out->side, error);
     default:
         if (!take_choice(argument, keys[key], value, "area", "boundary", &area, error)) return false;

@@ -29,6 +29,7 @@ typedef struct reading {
     const gis_barrier_surroundings *around;
     gis_source *source;
     OGRCoordinateTransformationH to_layer; /* NULL: coordinates are not transformed */
+    double least;                           /* the distance to be kept at least; negative: likewise */
     double width, distance;                /* the common width (if there is no width field), and the distance to be kept
                                             * from its edge */
     double widest;                         /* the largest width of any feature */
@@ -228,8 +229,16 @@ static bool read_lengths(reading *r, gis_error *error)
     char who[GIS_WHO_SIZE];
     snprintf(who, sizeof who, "--barrier %s", r->request->dataset);
     r->distance = around->gap;
-    return gis_optional_length_in_layer_units(&r->request->width, around->units, who, &r->width, error) &&
-           gis_optional_length_in_layer_units(&r->request->gap, around->units, who, &r->distance, error);
+    r->least = around->least_gap;
+    if (!gis_optional_length_in_layer_units(&r->request->width, around->units, who, &r->width, error) ||
+        !gis_optional_length_in_layer_units(&r->request->gap, around->units, who, &r->distance, error) ||
+        !gis_optional_length_in_layer_units(&r->request->least, around->units, who, &r->least, error))
+        return false;
+    if (r->request->least.text && r->least > r->distance)
+        return gis_fail_usage(error, "%s: least=%s: must not be greater than the gap, %.15g", who,
+                              r->request->least.text, r->distance);
+    r->least = fmin(r->least, r->distance);
+    return true;
 }
 
 static bool read_features(reading *r, gis_error *error)
@@ -265,6 +274,7 @@ bool gis_barrier_visit(const gis_barrier_request *request, const gis_barrier_sur
     *common = (gis_barrier_common){0};
     bool ok = read_lengths(&r, error) && open_source(&r, error);
     common->distance = r.distance;
+    common->least = r.least;
     if (ok) common->layer = CPLStrdup(gis_source_name(r.source));
     ok = ok && read_features(&r, error);
     if (r.to_layer) OCTDestroyCoordinateTransformation(r.to_layer);
@@ -275,20 +285,28 @@ bool gis_barrier_visit(const gis_barrier_request *request, const gis_barrier_sur
 
 /* ---- All of them ------------------------------------------------------------------------------------------------- */
 
-/* Makes the core's barriers. A gap of -1 stands for the layer's, which the core knows. */
-static bool make_barriers(const gis_barrier_request *requests, const double *distance, gis_barriers *out,
+/* The core's barrier of a feature. A gap of -1 stands for the layer's, which the core knows. */
+static sunder_barrier barrier_of(const gis_barrier_feature *f, const gis_barrier_request *request,
+                                 const gis_barrier_common *common)
+{
+    const bool own = request->gap.text || request->least.text, least = common->least >= 0;
+    return (sunder_barrier){
+        .geometry = {f->shape, f->lines.xy, f->lines.end, f->lines.lines},
+        .width = f->width,
+        .gap = !own ? -1 : least ? common->least : common->distance,
+        .full_gap = own && least ? common->distance : 0,
+        .side = request->side,
+    };
+}
+
+static bool make_barriers(const gis_barrier_request *requests, const gis_barrier_common *common, gis_barriers *out,
                           gis_error *error)
 {
     out->barrier = calloc(out->n + 1, sizeof *out->barrier);
     if (!out->barrier) return gis_no_memory(error);
     for (size_t k = 0; k < out->n; k++) {
         const gis_barrier_feature *f = &out->feature[k];
-        out->barrier[k] = (sunder_barrier){
-            .geometry = {f->shape, f->lines.xy, f->lines.end, f->lines.lines},
-            .width = f->width,
-            .gap = requests[f->request].gap.text ? distance[f->request] : -1,
-            .side = requests[f->request].side,
-        };
+        out->barrier[k] = barrier_of(f, &requests[f->request], &common[f->request]);
     }
     return true;
 }
@@ -309,18 +327,16 @@ static bool append_feature(void *user, const gis_barrier_common *common, gis_bar
 static bool read_all(const gis_barrier_request *requests, size_t n, const gis_barrier_surroundings *around,
                      gis_barriers *out, gis_error *error)
 {
-    double *distance = calloc(n + 1, sizeof *distance);
+    gis_barrier_common *common = calloc(n + 1, sizeof *common);
     *out = (gis_barriers){.layer = calloc(n + 1, sizeof *out->layer)};
-    bool ok = (distance && out->layer) || gis_no_memory(error);
+    bool ok = (common && out->layer) || gis_no_memory(error);
     for (size_t k = 0; ok && k < n; k++) {
-        gis_barrier_common common;
-        ok = gis_barrier_visit(&requests[k], around, 0, append_feature, out, &common, error);
-        distance[k] = common.distance;
-        out->layer[k] = common.layer;
+        ok = gis_barrier_visit(&requests[k], around, 0, append_feature, out, &common[k], error);
+        out->layer[k] = common[k].layer;
         out->requests++;
     }
-    ok = ok && make_barriers(requests, distance, out, error);
-    free(distance);
+    ok = ok && make_barriers(requests, common, out, error);
+    free(common);
     return ok;
 }
 

@@ -37,6 +37,9 @@ OPTIONS = (
     # ---- Parameters that are always shown ----
     Option("--gap", LENGTH, ("separate", "check", "pair", "route"), "Gap (least distance between features)",
            "Least distance between features. With 0 only overlaps count.", 0.0, advanced=False),
+    Option("--least-gap", LENGTH, LAYERS, "Least gap (pairs may stand between this and the gap, at a price)",
+           "A row without enough room shares what it lacks. Only pairs nearer than this are conflicts. Empty: the gap.",
+           advanced=False),
     Option("--shape", TEXT, ("buffer",), "Shape to grow or shrink by",
            "square:6m, rectangle:4x3, disc:3m (around the true disc), inside-disc:3m (within it), or WKT of a polygon. "
            "Lengths without a unit are in the layer's.", "disc:1", advanced=False, needed=True),
@@ -156,7 +159,8 @@ LOG_LABEL = "Log of all errors and warnings"
 # The noun that replaces an option in a sentence of a message, before the label in parentheses (program.py). So "give
 # another --id-field" becomes: give another key field ("Key field, for lists and messages").
 NOUNS = {
-    "--gap": "gap", "--shape": "shape", "--operation": "operation", "--dissolve": "dissolving", "--robot": "robot",
+    "--gap": "gap", "--least-gap": "least gap", "--shape": "shape", "--operation": "operation",
+    "--dissolve": "dissolving", "--robot": "robot",
     "--from": "start", "--to": "goal", "--before": "layer before the moves", "--reflect": "reflection",
     "--barrier": "barrier", "--max-shift": "longest move", "--scale": "scale", "--max-shift-field": "field of the longest moves",
     "--weight": "cost of a move", "--weight-field": "field of the weights",

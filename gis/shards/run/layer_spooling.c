@@ -230,6 +230,7 @@ bool gis_layer_spool_barriers(const gis_layer_input *input, double reach, gis_sp
         .targets = targets,
         .reach = reach,
         .gap = input->gap,
+        .least_gap = request->rules.least_gap.text ? input->least_gap : -1,
         .invalid = request->invalid,
         .output = request->output,
         .update = request->update,

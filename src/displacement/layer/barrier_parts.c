@@ -28,7 +28,7 @@ void sunder_i_barriers_free(sunder_i_barriers *barriers)
 {
     for (uint32_t k = 0; barriers->shape && k < barriers->parts; k++) sunder_shape_free(barriers->shape[k]);
     sunder_i_free_all(barriers->shape, barriers->piece, barriers->piece_end, barriers->barrier, barriers->part_end,
-                      barriers->half, barriers->required);
+                      barriers->half, barriers->required, barriers->full);
     memset(barriers, 0, sizeof *barriers);
 }
 
@@ -140,7 +140,22 @@ static sunder_status make_shapes(sunder_i_barriers *b, sunder_error *err)
     return SUNDER_OK;
 }
 
-sunder_status sunder_i_barriers_make(const sunder_layer *layer, double gap, sunder_i_barriers *out, sunder_error *err)
+/* Sets the distances that features keep from barrier k. Returns false if they are too much for a double. */
+static bool set_distances(const sunder_barrier *barrier, uint32_t k, double gap, double full_gap,
+                          sunder_i_barriers *out)
+{
+    const double own = barrier->gap < 0 ? gap : barrier->gap,
+                 full = barrier->full_gap > 0 ? barrier->full_gap : barrier->gap < 0 ? full_gap : own;
+    out->half[k] = barrier->width / 2;
+    set_required(out->half[k], own, out->required[k]);
+    set_required(out->half[k], sunder_i_max(own, full), out->full[k]);
+    out->slack = out->slack || full > own;
+    out->farthest = sunder_i_max(out->farthest, sunder_i_full_required_above(out, k));
+    return isfinite(out->full[k][0]);
+}
+
+sunder_status sunder_i_barriers_make(const sunder_layer *layer, double gap, double full_gap, sunder_i_barriers *out,
+                                     sunder_error *err)
 {
     memset(out, 0, sizeof *out);
     parts_maker m = {.out = out};
@@ -148,15 +163,13 @@ sunder_status sunder_i_barriers_make(const sunder_layer *layer, double gap, sund
     out->part_end = sunder_i_alloc(layer->barriers, sizeof *out->part_end);
     out->half = sunder_i_alloc(layer->barriers, sizeof *out->half);
     out->required = sunder_i_alloc(layer->barriers, sizeof *out->required);
-    if (!out->part_end || !out->half || !out->required) return sunder_i_failure_cause(err);
+    out->full = sunder_i_alloc(layer->barriers, sizeof *out->full);
+    if (!out->part_end || !out->half || !out->required || !out->full) return sunder_i_failure_cause(err);
     for (uint32_t k = 0; k < out->n; k++) {
         const sunder_barrier *barrier = &layer->barrier[k];
-        out->half[k] = barrier->width / 2;
-        set_required(out->half[k], barrier->gap < 0 ? gap : barrier->gap, out->required[k]);
-        if (!isfinite(out->required[k][0]))
+        if (!set_distances(barrier, k, gap, full_gap, out))
             return sunder_i_fail(err, SUNDER_EARG, "barrier %u: half the width and the gap are too much for a double",
                                  k);
-        out->farthest = sunder_i_max(out->farthest, sunder_i_required_above(out, k));
         if (!add_barrier(&m, k, &barrier->geometry)) return sunder_i_failure_cause(err);
         if (m.pieces >= UINT32_MAX - layer->n)
             return sunder_i_fail(err, SUNDER_ESIZE, "too many pieces of barriers: %zu", m.pieces);

@@ -18,13 +18,16 @@ typedef struct sunder_i_barriers {
     double *half;             /* [n] half of each barrier's width */
     double (*required)[2];    /* [n] half the width plus the gap, as a sum of two doubles: the rounded sum and its
                                * error */
-    double farthest;          /* the greatest required distance, rounded up */
+    double (*full)[2];        /* [n] likewise with the full gap, which features keep if it pays; not less */
+    double farthest;          /* the greatest full distance, rounded up */
+    bool slack;               /* there is a barrier whose full distance is greater than the required one */
     bool flat;                /* at least one piece has no area */
 } sunder_i_barriers;
 
-/* Cuts the layer's barriers into parts; their geometry is borrowed. `gap` is the gap of barriers that have none of
+/* Cuts the layer's barriers into parts; their geometry is borrowed. gap, full_gap: those of barriers that have none of
  * their own. After a failure, too, the caller has to call sunder_i_barriers_free(). */
-sunder_status sunder_i_barriers_make(const sunder_layer *layer, double gap, sunder_i_barriers *out, sunder_error *err);
+sunder_status sunder_i_barriers_make(const sunder_layer *layer, double gap, double full_gap, sunder_i_barriers *out,
+                                     sunder_error *err);
 void sunder_i_barriers_free(sunder_i_barriers *barriers);
 
 /* Returns the first part of the barrier that `part` belongs to. */
@@ -45,6 +48,19 @@ static inline double sunder_i_required_below(const sunder_i_barriers *b, uint32_
 static inline double sunder_i_required_above(const sunder_i_barriers *b, uint32_t barrier)
 {
     const double *r = b->required[barrier];
+    return r[1] > 0 ? nextafter(r[0], INFINITY) : r[0];
+}
+
+/* The distance that features keep from the barrier if it pays, rounded down, and rounded up. */
+static inline double sunder_i_full_required_below(const sunder_i_barriers *b, uint32_t barrier)
+{
+    const double *r = b->full[barrier];
+    return r[1] < 0 ? nextafter(r[0], 0) : r[0];
+}
+
+static inline double sunder_i_full_required_above(const sunder_i_barriers *b, uint32_t barrier)
+{
+    const double *r = b->full[barrier];
     return r[1] > 0 ? nextafter(r[0], INFINITY) : r[0];
 }
 

@@ -84,6 +84,9 @@ sunder_status sunder_layer_set_barriers(sunder_layer *layer, const sunder_barrie
             return sunder_i_fail(err, SUNDER_EARG, "barrier %zu: the width, %g, is negative or not finite", i,
                                  b->width);
         if (!isfinite(b->gap)) return sunder_i_fail(err, SUNDER_EARG, "barrier %zu: the gap is not finite", i);
+        if (!(b->full_gap >= 0) || !isfinite(b->full_gap))
+            return sunder_i_fail(err, SUNDER_EARG, "barrier %zu: the full gap, %g, is negative or not finite", i,
+                                 b->full_gap);
         const sunder_status status = check_lines(&b->geometry, i, err);
         if (status) return status;
     }

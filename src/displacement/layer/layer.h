@@ -60,7 +60,9 @@ static inline bool sunder_i_is_present(const sunder_feature *feature)
 
 /* The options with every default filled in. */
 typedef struct sunder_i_rules {
-    double gap, tolerance;
+    double gap;      /* the distance that features have to keep */
+    double full_gap; /* >= gap: the distance that they are to keep if it pays */
+    double tolerance;
     const sunder_shape *disc; /* a polygon in the disc with diameter `tolerance`, for sunder_i_overlap_is_thin(); owned
                                * by the model */
     bool touch_joins, containment_joins, list_inside;

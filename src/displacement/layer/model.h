@@ -102,6 +102,7 @@ typedef struct sunder_i_side {
 typedef struct sunder_i_row_side {
     uint32_t other;                       /* the neighbour */
     double along[2], least, least_listed; /* no rule: -INFINITY */
+    double full;                          /* what is missing of this has the price of the pair; none: -INFINITY */
     double weight;                        /* of the springs: the lesser weight of the two bodies */
 } sunder_i_row_side;
 
@@ -281,6 +282,28 @@ static inline double sunder_i_owed_above(const sunder_i_model *model, uint32_t f
     return sunder_i_required_above(model->barriers, sunder_i_barrier_of(model, part));
 }
 
+/* The distance that two things keep from each other if it pays, which is not less than what they have to keep: rounded
+ * down, and rounded up. */
+static inline double sunder_i_full_below(const sunder_i_model *model, uint32_t f, uint32_t g)
+{
+    const uint32_t part = f > g ? f : g;
+    if (!sunder_i_is_barrier(model, part)) return model->rules.full_gap;
+    return sunder_i_full_required_below(model->barriers, sunder_i_barrier_of(model, part));
+}
+
+static inline double sunder_i_full_above(const sunder_i_model *model, uint32_t f, uint32_t g)
+{
+    const uint32_t part = f > g ? f : g;
+    if (!sunder_i_is_barrier(model, part)) return model->rules.full_gap;
+    return sunder_i_full_required_above(model->barriers, sunder_i_barrier_of(model, part));
+}
+
+/* Is there a pair that may stand nearer than its full distance? */
+static inline bool sunder_i_has_slack(const sunder_i_model *model)
+{
+    return model->rules.full_gap > model->rules.gap || model->barriers->slack;
+}
+
 /* Do two things have to keep the layer's gap from each other? A barrier may have a gap of its own. */
 static inline bool sunder_i_owe_gap(const sunder_i_model *model, uint32_t f, uint32_t g)
 {
@@ -288,12 +311,14 @@ static inline bool sunder_i_owe_gap(const sunder_i_model *model, uint32_t f, uin
     return !sunder_i_is_barrier(model, part) || model->layer->barrier[sunder_i_barrier_of(model, part)].gap < 0;
 }
 
-/* Returns by how much the distance that features keep from the thing exceeds the gap. The boxes of barriers, and of
- * their bodies and pieces, are grown by it, so that a query with the gap finds everything that a distance has to be
- * kept from. */
+/* Returns by how much the distance that features keep from the thing exceeds the gap, or the full distance the full
+ * gap, if that is more. The boxes of barriers, and of their bodies and pieces, are grown by it, so that a query with
+ * the gap finds everything that a distance has to be kept from. */
 static inline double sunder_i_reach_beyond(const sunder_i_model *model, uint32_t thing)
 {
-    return sunder_i_max(0, sunder_i_owed_above(model, thing, thing) - model->rules.gap);
+    const double beyond = sunder_i_max(0, sunder_i_owed_above(model, thing, thing) - model->rules.gap);
+    if (!sunder_i_has_slack(model)) return beyond;
+    return sunder_i_max(beyond, sunder_i_full_above(model, thing, thing) - model->rules.full_gap);
 }
 
 /* Is it proved that only a jump would separate the features f < g? */
@@ -309,6 +334,12 @@ static inline bool sunder_i_are_confined(const sunder_i_model *model, uint32_t i
     const sunder_i_id_pair pair = {i < j ? i : j, i < j ? j : i};
     return model->confined_n && bsearch(&pair, model->confined, model->confined_n, sizeof pair, sunder_i_by_id_pair);
 }
+
+/* ---- full_gap.c -------------------------------------------------------------------------------------------------- */
+
+/* Returns a copy of the model in which every pair has to keep its full distance. It borrows everything from the model,
+ * and uses *barriers. */
+sunder_i_model sunder_i_with_full_gap(const sunder_i_model *model, sunder_i_barriers *barriers);
 
 /* ---- model.c ----------------------------------------------------------------------------------------------------- */
 

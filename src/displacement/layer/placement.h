@@ -51,6 +51,9 @@ void sunder_i_placement_free(const sunder_i_model *model, sunder_i_placement *pl
 sunder_status sunder_i_placement_relate(const sunder_i_model *model, const sunder_i_placement *placement,
                                         const sunder_i_changes *changes, sunder_i_relations *relations,
                                         sunder_error *err);
+/* As sunder_i_placement_relate() for all pairs, with the full gap in place of the gap (full_gap.c). */
+sunder_status sunder_i_placement_relate_fully(const sunder_i_model *model, const sunder_i_placement *placement,
+                                              sunder_i_relations *relations, sunder_error *err);
 /* Updates relations that are right except for pairs with a feature in `changes` (sorted). things: NULL, or all things
  * that are or were near one of these, once each; then no other pairs are looked at. After a failure some relations may
  * be missing. */

@@ -1,4 +1,4 @@
-/* The price of the distance s that a pair left in conflict still lacks: w (4 R s + ease s^2).
+/* The price of the distance s that a pair left in conflict, or a tight one, still lacks: w (4 R s + ease s^2).
  *
  * w is the lesser weight of the two bodies, or the weight of the only body that may move. R is the lesser of their
  * limits; if neither has a limit above 0, R is the distance that the pair has to keep. A move of length r costs w r^2,
@@ -17,6 +17,6 @@ sunder_i_price sunder_i_price_of(const sunder_i_model *model, const sunder_i_bod
     const double limit = sunder_i_min(limit_above_0(p), limit_above_0(q));
     const double weight = p->fixed ? q->weight : q->fixed ? p->weight : sunder_i_min(p->weight, q->weight);
     const double far =
-        limit < INFINITY ? limit : sunder_i_owed_above(model, model->member[p->member], model->member[q->member]);
+        limit < INFINITY ? limit : sunder_i_full_above(model, model->member[p->member], model->member[q->member]);
     return (sunder_i_price){weight * 4 * far, weight * model->rules.ease};
 }

@@ -96,8 +96,7 @@ sunder_status sunder_i_relate(const sunder_i_rules *rules, const sunder_i_transl
     if (m.overlap) return relate_overlapping(rules, a, b, relation, err);
     relation->near = !m.apart;
     relation->touch = m.touch;
-    /* The tolerance is less than the gap, or the gap is 0. */
-    if (m.touch || !m.may_touch || (m.apart && rules->gap > 0)) return SUNDER_OK;
+    if (m.touch || !m.may_touch || (m.apart && rules->gap > rules->tolerance)) return SUNDER_OK;
     double distance;
     status = distance_between(a, b, &distance, err);
     if (!status) relation->touch = distance <= rules->tolerance;

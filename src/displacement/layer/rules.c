@@ -2,6 +2,7 @@
 #include "displacement/layer/layer.h"
 
 #include "base/error.h"
+#include "base/extremes.h"
 #include "base/sized_struct.h"
 #include "base/watch.h"
 
@@ -50,16 +51,28 @@ static sunder_status check_ease(const sunder_layer_options *options, sunder_erro
     return SUNDER_OK;
 }
 
+static sunder_status check_full_gap(const sunder_layer_options *options, sunder_error *err)
+{
+    if (!(options->full_gap >= 0) || !isfinite(options->full_gap))
+        return sunder_i_fail(err, SUNDER_EARG, "the full gap, %g, is negative or not finite", options->full_gap);
+    if (options->full_gap > options->gap && (options->keep_worlds || options->keep_trees))
+        return sunder_i_fail(err, SUNDER_EARG, "neither worlds nor trees are kept for a layer with a full gap");
+    return SUNDER_OK;
+}
+
 sunder_status sunder_i_rules_of(const sunder_layer_options *options, sunder_i_rules *rules, sunder_error *err)
 {
     if (!(options->gap >= 0) || !isfinite(options->gap))
         return sunder_i_fail(err, SUNDER_EARG, "the gap, %g, is negative or not finite", options->gap);
     if (isnan(options->touch_tolerance) || options->touch_tolerance == INFINITY)
         return sunder_i_fail(err, SUNDER_EARG, "the touch tolerance, %g, is not finite", options->touch_tolerance);
-    const double tolerance = options->touch_tolerance < 0 ? options->gap / 10 : options->touch_tolerance;
-    if (options->gap > 0 && tolerance >= options->gap)
+    sunder_status status = check_full_gap(options, err);
+    if (status) return status;
+    const double full = sunder_i_max(options->gap, options->full_gap),
+                 tolerance = options->touch_tolerance < 0 ? full / 10 : options->touch_tolerance;
+    if (full > 0 && tolerance >= full)
         return sunder_i_fail(err, SUNDER_EARG, "the touch tolerance, %g, is not less than the gap, %g", tolerance,
-                             options->gap);
+                             full);
     if ((int)options->contained < SUNDER_CONTAINMENT_BLOCK || (int)options->contained > SUNDER_CONTAINMENT_SEPARATE)
         return sunder_i_fail(err, SUNDER_EARG, "no such treatment of contained features: %d", (int)options->contained);
     if (!(options->thin >= 0) || !isfinite(options->thin))
@@ -70,10 +83,11 @@ sunder_status sunder_i_rules_of(const sunder_layer_options *options, sunder_i_ru
     if (!(options->barrier_reach >= 0))
         return sunder_i_fail(err, SUNDER_EARG, "the reach of barriers, %g, is negative or not a number",
                              options->barrier_reach);
-    sunder_status status = check_rows(options, err);
+    status = check_rows(options, err);
     if (!status) status = check_ease(options, err);
     if (status) return status;
     rules->gap = options->gap;
+    rules->full_gap = full;
     rules->tolerance = tolerance;
     rules->disc = NULL; /* set when the model is made */
     rules->touch_joins = !options->no_blocks && !options->no_touch;
@@ -97,7 +111,7 @@ sunder_status sunder_i_rules_of(const sunder_layer_options *options, sunder_i_ru
     rules->rows = options->rows;
     for (int k = 0; k < 2; k++) rules->row_stiffness[k] = options->rows ? options->row_stiffness[k] : 0;
     rules->ease = options->ease;
-    rules->kink = options->kink < 0 ? options->gap / 10 : options->kink;
+    rules->kink = options->kink < 0 ? full / 10 : options->kink;
     return SUNDER_OK;
 }
 

@@ -61,8 +61,10 @@ static bool add_obstacle(bounding *b, const sunder_i_body *other, const sunder_i
         !sunder_i_reserve(&b->obstacle, &b->obstacle_capacity, b->obstacles + 1, sizeof *b->obstacle))
         return false;
     const size_t edges = sunder_i_obstacle_edges(b->scratch.xy, n, b->edge + b->edges);
-    b->obstacle[b->obstacles++] =
-        (obstacle_of_pieces){b->edges, edges, find_priced(b, part), sunder_i_owed_below(b->model, own->feature, part)};
+    const size_t pair = find_priced(b, part);
+    const double owed = pair == NOT_PRICED ? sunder_i_owed_below(b->model, own->feature, part)
+                                           : sunder_i_full_below(b->model, own->feature, part);
+    b->obstacle[b->obstacles++] = (obstacle_of_pieces){b->edges, edges, pair, owed};
     b->edges += edges;
     return true;
 }
@@ -71,7 +73,7 @@ static bool add_obstacle(bounding *b, const sunder_i_body *other, const sunder_i
 static bool add_part(bounding *b, const sunder_i_body *other)
 {
     const sunder_i_body_pieces *own = sunder_i_pieces_of(b->model, b->body), *of = sunder_i_pieces_of(b->model, other);
-    const double far = b->body->limit + b->model->rules.gap;
+    const double far = b->body->limit + b->model->rules.full_gap;
     bool ok = own && of;
     for (uint32_t k = 0; k < other->pieces && ok; k++)
         for (uint32_t l = 0; l < b->body->pieces && ok; l++) {
@@ -90,7 +92,7 @@ static bool add_barriers(bounding *b)
     const double none[2] = {0, 0};
     sunder_i_list hits = {0};
     double box[4], most = 0;
-    sunder_i_body_box(b->body, none, b->body->limit + b->model->rules.gap, box);
+    sunder_i_body_box(b->body, none, b->body->limit + b->model->rules.full_gap, box);
     bool ok = sunder_i_look_about(b->model, b->model->standing, box, &hits);
     sunder_i_things_to_bodies(b->model, &hits);
     for (size_t k = 0; k < hits.n && ok; k++) {

@@ -1,4 +1,4 @@
-/* What the pairs that remain in conflict lack, what that costs, and what they have to pay at least.
+/* What the pairs that remain in conflict, or are tight, lack, what that costs, and what they have to pay at least.
  *
  * A pair is two bodies, or a body and a barrier, of which one may move. It lacks the most that a conflict between its
  * members lacks. Let a conflict lack s at home. After a relative move of length r it lacks at least s - r, and r is at
@@ -40,7 +40,7 @@ static sunder_status missing_at_home(const sunder_i_model *model, const sunder_c
                                      sunder_error *err)
 {
     const uint32_t a = (uint32_t)c->a, b = (uint32_t)c->b;
-    const double none[2] = {0, 0}, owed = sunder_i_owed_below(model, a, b);
+    const double none[2] = {0, 0}, owed = sunder_i_full_below(model, a, b);
     sunder_i_barrier_stance stance = {.distance = c->before};
     sunder_status status = SUNDER_OK;
     if (sunder_i_is_barrier(model, b)) {
@@ -65,7 +65,8 @@ static sunder_status measure_conflict(const sunder_i_model *model, const sunder_
 {
     const uint32_t i = model->body_of[c->a], j = model->body_of[c->b];
     const bool swap = !sunder_i_may_move(&model->body[i]);
-    *out = (lacking){swap ? j : i, swap ? i : j, c->missing, 0};
+    const double slack = sunder_i_full_above(model, (uint32_t)c->a, (uint32_t)c->b) - c->required;
+    *out = (lacking){swap ? j : i, swap ? i : j, c->missing + slack, 0};
     return missing_at_home(model, c, &out->home, err);
 }
 
@@ -186,16 +187,35 @@ static void add_up(sunder_report *report, size_t bodies)
     report->summary.cost_alone = sunder_total_below(&alone);
 }
 
+/* Adds the pairs of neighbours in rows that lack some of the rule of rows with the full gap. */
+static void add_rows(const sunder_i_model *model, lacking *list, size_t *n)
+{
+    for (uint32_t i = 0; i < model->bodies && model->row_sides && sunder_i_has_slack(model); i++) {
+        const sunder_i_extras *has = model->body[i].has;
+        for (uint32_t e = has->row_side; e < has->row_side + has->row_sides; e++) {
+            const sunder_i_row_side *side = &model->row_side[e];
+            const double *t = model->move + 2 * (size_t)i, *s = model->move + 2 * (size_t)side->other;
+            const double missing = side->full - ((s[0] - t[0]) * side->along[0] + (s[1] - t[1]) * side->along[1]);
+            const bool swap = !sunder_i_may_move(&model->body[i]);
+            if (side->other < i || !(missing > 0)) continue;
+            list[(*n)++] = (lacking){swap ? side->other : i, swap ? i : side->other, missing, side->full};
+        }
+    }
+}
+
 sunder_status sunder_i_report_eased(sunder_report *report, const sunder_i_model *model, sunder_error *err)
 {
     if (!(model->rules.ease > 0)) return SUNDER_OK;
-    lacking *list = sunder_i_alloc(report->conflicts, sizeof *list);
+    const size_t conflicts = report->conflicts, pairs = conflicts + report->summary.tight;
+    lacking *list = sunder_i_alloc(pairs + model->row_sides, sizeof *list);
     report->paying = sunder_i_calloc(model->bodies, sizeof *report->paying);
     sunder_status status = list && report->paying ? SUNDER_OK : sunder_i_failure_cause(err);
     size_t n = 0;
-    for (size_t k = 0; k < report->conflicts && !status; k++)
-        if (is_priced(model, &report->conflict[k]))
-            status = measure_conflict(model, &report->conflict[k], &list[n++], err);
+    for (size_t k = 0; k < pairs && !status; k++) {
+        const sunder_conflict *c = k < conflicts ? &report->conflict[k] : &report->tight[k - conflicts];
+        if (is_priced(model, c)) status = measure_conflict(model, c, &list[n++], err);
+    }
+    if (!status) add_rows(model, list, &n);
     if (!status && n) qsort(list, n, sizeof *list, by_bodies);
     if (!status && !add_pairs(report, model, list, merge_conflicts(list, n))) status = sunder_i_failure_cause(err);
     if (!status) add_up(report, model->bodies);

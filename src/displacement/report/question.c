@@ -207,7 +207,7 @@ static sunder_layer_options options_for(const sunder_i_questions *g, double gap)
     options.no_blocks = true; /* blocks are given by numbers */
     options.threads = 1;
     options.effort = 0;
-    options.ease = 0;
+    options.ease = options.full_gap = 0;
     options.row_stiffness[0] = options.row_stiffness[1] = 0;
     options.progress = NULL;
     return options;

@@ -15,6 +15,7 @@
 static double least_with(const sunder_i_model *whole, const sunder_i_row_side *side, double gap)
 {
     if (side->least == 0 || gap == whole->rules.gap) return side->least;
+    if (side->least < 0 && whole->rules.full_gap > whole->rules.gap) return side->least; /* it keeps the full gap */
     const double least = nextafter(side->least - (whole->rules.gap - gap), INFINITY);
     return side->least > 0 ? sunder_i_max(least, 0) : least;
 }

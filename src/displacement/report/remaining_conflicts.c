@@ -256,7 +256,7 @@ static sunder_status describe_conflicts(void *context, size_t begin, size_t end,
                                  other = sunder_i_standing(model, d->placement, (uint32_t)c->b);
         sunder_status status = placed_shape(&at, &a, err);
         if (!status) status = placed_shape(&other, &b, err);
-        if (!status) status = measure_pair(a, b, d->overlap[k], c, err);
+        if (!status) status = measure_pair(a, b, d->overlap && d->overlap[k], c, err);
         sunder_shape_free(a);
         sunder_shape_free(b);
         if (status) return status;
@@ -280,6 +280,17 @@ static double missing_of(const sunder_conflict *c)
 {
     if (c->inside_block || c->reason == SUNDER_REASON_KEPT) return NAN;
     return sunder_i_max(0, c->required - c->distance) + c->depth;
+}
+
+sunder_status sunder_i_report_measure(const sunder_i_model *model, const sunder_i_placement *placement,
+                                      sunder_conflict *conflict, size_t n, const bool *overlap, bool reasons,
+                                      sunder_error *err)
+{
+    describing d = {model, placement, conflict, reasons, overlap};
+    const sunder_status status =
+        sunder_i_parallel(model->rules.threads, n, SUNDER_I_GRAIN_PAIRS, describe_conflicts, &d, err);
+    for (size_t k = 0; k < n && !status; k++) conflict[k].missing = missing_of(&conflict[k]);
+    return status;
 }
 
 sunder_status sunder_i_report_conflicts(sunder_report *report, const sunder_i_model *model,
@@ -312,10 +323,7 @@ sunder_status sunder_i_report_conflicts(sunder_report *report, const sunder_i_mo
         k++;
     }
     report->conflicts = n;
-    describing d = {model, placement, report->conflict, reasons, overlap};
-    sunder_status status =
-        sunder_i_parallel(model->rules.threads, n, SUNDER_I_GRAIN_PAIRS, describe_conflicts, &d, err);
+    sunder_status status = sunder_i_report_measure(model, placement, report->conflict, n, overlap, reasons, err);
     sunder_i_free(overlap);
-    for (k = 0; k < n && !status; k++) report->conflict[k].missing = missing_of(&report->conflict[k]);
     return status || !reasons ? status : sunder_i_report_reasons(report, model, err);
 }

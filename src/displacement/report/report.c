@@ -104,7 +104,8 @@ void sunder_i_report_moves(sunder_report *report, const sunder_i_model *model)
 void sunder_report_free(sunder_report *report)
 {
     if (!report) return;
-    sunder_i_free_all(report->move, report->status, report->block, report->conflict, report->blocker);
+    sunder_i_free_all(report->move, report->status, report->block, report->conflict, report->tight,
+                      report->blocker);
     for (size_t k = 0; report->proof && k < report->conflicts; k++) sunder_i_proof_free(report->proof[k]);
     sunder_i_free_all(report->proof, report->bound_pair);
     for (size_t k = 0; k < report->bound_trees; k++) sunder_i_bound_tree_free(&report->bound_tree[k]);
@@ -133,7 +134,8 @@ void sunder_i_count(sunder_conflict_counts *counts, const sunder_conflict *confl
     case SUNDER_CONFLICT_SIDE:
     case SUNDER_CONFLICT_JUMP:
     case SUNDER_CONFLICT_NOT_A_TRANSLATE:
-    case SUNDER_CONFLICT_ROW: break; /* not used for conflicts of a layer */
+    case SUNDER_CONFLICT_ROW:
+    case SUNDER_CONFLICT_TIGHT: break; /* no conflicts of a layer */
     }
 }
 

@@ -32,6 +32,7 @@ struct sunder_report {
                                     * none */
     sunder_conflict *conflict;
     size_t conflicts;
+    sunder_conflict *tight; /* [summary.tight] pairs that are tight, until they become part of the list of conflicts */
     size_t *blocker;      /* the array into which blocked_by of all conflicts points */
     sunder_proof **proof; /* [conflicts] NULL where there is no proof; the array is NULL in a check */
     bool stripped;        /* proofs contain only the features that they name */
@@ -98,6 +99,20 @@ bool sunder_i_next_conflict(const sunder_i_model *model, const sunder_i_relation
 /* Counts the conflicts among the relations by their kinds, without listing them. */
 void sunder_i_count_relations(const sunder_i_model *model, const sunder_i_relations *relations,
                               sunder_conflict_counts *counts);
+
+/* Measures n pairs at the positions of `placement`: how far apart they are, or how deep they overlap, and the link.
+ * overlap: [n] whether each overlaps; NULL: none does. reasons: also measure how far apart they were at the start. */
+sunder_status sunder_i_report_measure(const sunder_i_model *model, const sunder_i_placement *placement,
+                                      sunder_conflict *conflict, size_t n, const bool *overlap, bool reasons,
+                                      sunder_error *err);
+
+/* ---- tight_list.c ------------------------------------------------------------------------------------------------ */
+
+/* Lists the tight pairs in report->tight, once the conflicts are known. reasons: as in sunder_i_report_conflicts(). */
+sunder_status sunder_i_report_tight(sunder_report *report, const sunder_i_model *model,
+                                    const sunder_i_placement *placement, bool reasons, sunder_error *err);
+/* Adds the tight pairs to the list of conflicts, all of which are measured by their full distances from then on. */
+sunder_status sunder_i_report_add_tight(sunder_report *report, const sunder_i_model *model, sunder_error *err);
 
 /* ---- eased_pairs.c ----------------------------------------------------------------------------------------------- */
 

@@ -158,6 +158,7 @@ static sunder_status set_barriers(const sunder_i_solver *s, const sunder_i_surro
         const uint32_t part = a->part.item[k];
         if (sunder_i_whole_of(&s->model, part) == gone) continue;
         barrier[n] = s->layer.barrier[sunder_i_barrier_of(&s->model, part)];
+        barrier[n].full_gap = 0;
         barrier[n].side = barrier[n].side && sunder_i_thing_shape(&s->model, part)->flat;
         barrier[n++].geometry = (sunder_obstacle){.shape = sunder_i_thing_shape(&s->model, part)};
     }

@@ -159,7 +159,7 @@ static bool find_surroundings(row_search *s)
     const sunder_i_body *body = s->model->body;
     s->about = sunder_i_alloc(s->model->bodies, sizeof *s->about);
     for (size_t b = 0; b < s->model->bodies && s->about; b++)
-        sunder_i_body_box(&body[b], home, ROW_REACH * s->model->rules.gap, s->about[b]);
+        sunder_i_body_box(&body[b], home, ROW_REACH * s->model->rules.full_gap, s->about[b]);
     for (size_t k = 0; k < s->pairs.n && s->about; k++) {
         double box[4];
         sunder_i_body_box(&body[s->pairs.pair[k].j], home, 0, box);
@@ -197,7 +197,7 @@ static bool find_reach(const row_search *s, sunder_i_rows *rows)
 
 static sunder_status find_rows(const sunder_i_model *model, sunder_i_rows *rows, sunder_error *err)
 {
-    const sunder_i_rows_wanted wanted = {.reach = ROW_REACH * model->rules.gap};
+    const sunder_i_rows_wanted wanted = {.reach = ROW_REACH * model->rules.full_gap};
     row_search s = {.model = model};
     s.walls = sunder_i_calloc(model->features, sizeof *s.walls);
     s.side = sunder_i_alloc(model->bodies, sizeof *s.side);

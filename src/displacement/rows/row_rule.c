@@ -5,7 +5,11 @@
  *     min(0, gap - apart)   otherwise, and for a pair that remains in conflict: the two may come nearer along the row
  *                           only as long as the gap is kept there
  *
- * For a given pair this is one half-plane, which is convex: no search has to choose a side of it. */
+ * For a given pair this is one half-plane, which is convex: no search has to choose a side of it.
+ *
+ * With a full gap (layer/full_gap.c) that is the gap here, and a pair that lacks s of it may also lack s of
+ * full gap - apart, but not of min(0, full gap - apart). s is at most full gap - gap, unless the pair remains in
+ * conflict. So the rule that has to be kept is the greater of gap - apart and min(0, full gap - apart). */
 #include "displacement/rows/rows.h"
 
 #include "base/extremes.h"
@@ -13,8 +17,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Lists the pairs of bodies in conflict, sorted. Returns NULL if memory is out. */
-static sunder_i_id_pair *list_conflicts(const sunder_i_model *model, const sunder_i_relations *start, size_t *n)
+/* Lists the pairs of bodies that are nearer than the full gap, sorted. Returns NULL if memory is out. */
+static sunder_i_id_pair *list_near(const sunder_i_model *model, const sunder_i_relations *start, size_t *n)
 {
     sunder_i_id_pair *pair = sunder_i_alloc(start->n, sizeof *pair);
     *n = 0;
@@ -50,15 +54,17 @@ static void add_halves(uint32_t i, const sunder_i_row_side *there, half *out, si
     out[(*n)++] = (half){there->other, back};
 }
 
-/* Appends the rule of an edge, from both of its bodies. */
-static void add_edge(const sunder_i_model *model, const sunder_i_row_edge *e, bool in_conflict, half *out, size_t *n)
+/* Appends the rule of an edge, from both of its bodies. near: they are nearer than the full gap. */
+static void add_edge(const sunder_i_model *model, const sunder_i_row_edge *e, bool near, half *out, size_t *n)
 {
     const bool ruled = e->apart > 0;
-    const double least = ruled ? model->rules.gap - e->apart : -INFINITY, listed = sunder_i_min(0, least);
+    const double full = ruled ? model->rules.full_gap - e->apart : -INFINITY, listed = sunder_i_min(0, full),
+                 least = ruled ? sunder_i_max(model->rules.gap - e->apart, listed) : -INFINITY;
     const sunder_i_row_side there = {e->j,
                                      {e->along[0], e->along[1]},
-                                     in_conflict ? least : listed,
+                                     near ? least : listed,
                                      listed,
+                                     near ? full : -INFINITY,
                                      sunder_i_min(sunder_i_weight_below(model, &model->body[e->i]),
                                                   sunder_i_weight_below(model, &model->body[e->j]))};
     add_halves(e->i, &there, out, n);
@@ -82,24 +88,35 @@ static bool keep_rule(sunder_i_model *model, half *all, size_t n)
     return true;
 }
 
-sunder_status sunder_i_rows_make_rule(const sunder_i_rows *rows, const sunder_i_relations *start, sunder_i_model *model,
-                                      sunder_error *err)
+static sunder_status make_rule(const sunder_i_rows *rows, const sunder_i_relations *start, sunder_i_model *model,
+                               sunder_error *err)
 {
-    size_t conflicts, n = 0;
-    if (rows->edges == 0) return SUNDER_OK;
+    size_t nears, n = 0;
     half *all = sunder_i_alloc(2 * rows->edges, sizeof *all);
-    sunder_i_id_pair *conflict = list_conflicts(model, start, &conflicts);
-    bool ok = all && conflict;
+    sunder_i_id_pair *near = list_near(model, start, &nears);
+    bool ok = all && near;
     for (size_t k = 0; k < rows->edges && ok; k++) {
         const sunder_i_row_edge *e = &rows->edge[k];
         const sunder_i_id_pair pair = {e->i, e->j};
-        const size_t at = sunder_i_lower_bound(&pair, conflict, conflicts, sizeof pair, sunder_i_by_id_pair);
-        const bool in_conflict = at < conflicts && sunder_i_by_id_pair(&conflict[at], &pair) == 0;
-        if (!(model->body[e->i].fixed && model->body[e->j].fixed)) add_edge(model, e, in_conflict, all, &n);
+        const size_t at = sunder_i_lower_bound(&pair, near, nears, sizeof pair, sunder_i_by_id_pair);
+        const bool is_near = at < nears && sunder_i_by_id_pair(&near[at], &pair) == 0;
+        if (!(model->body[e->i].fixed && model->body[e->j].fixed)) add_edge(model, e, is_near, all, &n);
     }
     ok = ok && keep_rule(model, all, n);
-    sunder_i_free_all(all, conflict);
+    sunder_i_free_all(all, near);
     return ok ? SUNDER_OK : sunder_i_failure_cause(err);
+}
+
+sunder_status sunder_i_rows_make_rule(const sunder_i_rows *rows, const sunder_i_placement *home,
+                                      const sunder_i_relations *start, sunder_i_model *model, sunder_error *err)
+{
+    if (rows->edges == 0) return SUNDER_OK;
+    if (!sunder_i_has_slack(model)) return make_rule(rows, start, model, err);
+    sunder_i_relations full = {0};
+    sunder_status status = sunder_i_placement_relate_fully(model, home, &full, err);
+    if (!status) status = make_rule(rows, &full, model, err);
+    sunder_i_free(full.pair);
+    return status;
 }
 
 sunder_status sunder_i_rows_take_rule(const sunder_i_row_demand *demand, size_t n, const uint32_t *number,
@@ -113,7 +130,8 @@ sunder_status sunder_i_rows_take_rule(const sunder_i_row_demand *demand, size_t 
     for (size_t k = 0; k < model->features && ok; k++) body[number[k]] = model->body_of[k];
     for (size_t k = 0; k < n && ok; k++) {
         const sunder_i_row_demand *d = &demand[k];
-        const sunder_i_row_side there = {body[d->b], {d->along[0], d->along[1]}, d->least, d->least_listed, 0};
+        const sunder_i_row_side there = {body[d->b],     {d->along[0], d->along[1]}, d->least,
+                                         d->least_listed, -INFINITY,                  0};
         if (body[d->a] != body[d->b]) add_halves(body[d->a], &there, all, &halves);
     }
     ok = ok && keep_rule(model, all, halves);

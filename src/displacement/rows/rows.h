@@ -4,6 +4,7 @@
 #define SUNDER_I_ROWS_H
 
 #include "displacement/layer/model.h"
+#include "displacement/layer/placement.h"
 
 /* Two neighbours i and j in a row. */
 typedef struct sunder_i_row_edge {
@@ -42,10 +43,10 @@ sunder_status sunder_i_rows_take_given(const sunder_i_model *model, sunder_i_row
 /* ---- row_rule.c -------------------------------------------------------------------------------------------------- */
 
 /* Makes the rule of rows (sunder_i_row_side) for each two neighbours that stand apart along the row and of which one
- * may move. start: the relations at the start, which tell the pairs in conflict. To be called once. Fails with
+ * may move. home: the placement of the start, and `start` its relations. To be called once. Fails with
  * SUNDER_ENOMEM. */
-sunder_status sunder_i_rows_make_rule(const sunder_i_rows *rows, const sunder_i_relations *start, sunder_i_model *model,
-                                      sunder_error *err);
+sunder_status sunder_i_rows_make_rule(const sunder_i_rows *rows, const sunder_i_placement *home,
+                                      const sunder_i_relations *start, sunder_i_model *model, sunder_error *err);
 
 /* The rule of rows for two features a and b of different bodies, as sunder_i_row_side has it for their bodies. */
 typedef struct sunder_i_row_demand {

@@ -130,7 +130,7 @@ bool sunder_i_row_side_by_side(const sunder_i_model *model, const sunder_i_walls
     measure_edge(model, edge, s, link);
     return apart_by_length(&s[0].along, &s[1].along) >= -ROW_SHARED &&
            apart_by_length(&s[0].across, &s[1].across) <= -ROW_SHARED && are_of_one_depth(&s[0].across, &s[1].across) &&
-           are_in_line(s, edge->offset, model->rules.gap);
+           are_in_line(s, edge->offset, model->rules.full_gap);
 }
 
 /* Sets the axis to the direction of the link, or to the x-axis if the two touch. */

@@ -197,7 +197,7 @@ static void check_sides(void **state)
         scene s;
         begin(&s, 0);
         add(&s, HOUSE, "POLYGON ((8 0, 12 0, 12 4, 8 4, 8 0))");
-        s.barrier = (sunder_barrier){{NULL, line[k].xy, &line[k].points, 1}, 0, 0, line[k].side};
+        s.barrier = (sunder_barrier){{NULL, line[k].xy, &line[k].points, 1}, 0, 0, line[k].side, 0};
         run(&s);
         size_t sides = 0;
         for (size_t i = 0; i < s.found_n; i++) {
@@ -220,7 +220,7 @@ static size_t crossings_of(sunder_shape *area)
     assert_non_null(area);
     begin(&s, 0);
     add(&s, HOUSE, "POLYGON ((8 0, 12 0, 12 4, 8 4, 8 0))");
-    s.barrier = (sunder_barrier){{.shape = area}, 0, 0, true};
+    s.barrier = (sunder_barrier){{.shape = area}, 0, 0, true, 0};
     run(&s);
     for (size_t i = 0; i < s.found_n; i++) sides += s.found[i].kind == SUNDER_CONFLICT_SIDE;
     sunder_shape_free(area);

@@ -43,8 +43,8 @@ static sunder_status set_barriers(const street *s, sunder_layer *layer, sunder_e
 {
     static const double xy[] = {-5, 3, 5, 4, 15, -3, 40, 5};
     static const size_t line_end[] = {3, 4};
-    const sunder_barrier barrier[2] = {{{.xy = xy, .line_end = line_end, .lines = 2}, 1, 0.5, s->moves},
-                                       {{.shape = s->shape[5]}, 0, -1, s->moves}};
+    const sunder_barrier barrier[2] = {{{.xy = xy, .line_end = line_end, .lines = 2}, 1, 0.5, s->moves, 0},
+                                       {{.shape = s->shape[5]}, 0, -1, s->moves, 0}};
     return s->barriers ? sunder_layer_set_barriers(layer, barrier, 2, err) : SUNDER_OK;
 }
 
@@ -93,8 +93,8 @@ static sunder_status separate_in_lane(const lane *l, sunder_shape *const shape[3
 {
     static const double xy[] = {-5, 5, 2, 5};
     static const size_t line_end[] = {2};
-    const sunder_barrier barrier[2] = {{{.xy = xy, .line_end = line_end, .lines = 1}, 0.5, 0.25, true},
-                                       {{.shape = shape[2]}, 0, -1, true}};
+    const sunder_barrier barrier[2] = {{{.xy = xy, .line_end = line_end, .lines = 1}, 0.5, 0.25, true, 0},
+                                       {{.shape = shape[2]}, 0, -1, true, 0}};
     sunder_feature feature[2];
     sunder_layer_options options;
     sunder_layer *layer = NULL;

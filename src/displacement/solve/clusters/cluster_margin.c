@@ -23,6 +23,6 @@ double sunder_i_solver_margin(const sunder_i_solver *solver, const uint32_t *b, 
         if (solver->widened[b[k]] > widened) widened = solver->widened[b[k]];
     }
     int exponent;
-    frexp(largest + sunder_i_max(solver->model.rules.gap, solver->barriers.farthest), &exponent);
+    frexp(largest + sunder_i_max(solver->model.rules.full_gap, solver->barriers.farthest), &exponent);
     return ldexp(1, exponent - 51 + 2 * (int)widened);
 }

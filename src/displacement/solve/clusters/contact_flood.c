@@ -27,6 +27,7 @@ typedef struct contacts {
 
 typedef struct flooding {
     sunder_i_solver *solver;
+    const sunder_i_model *model; /* whose distances decide on contact */
     sunder_i_flood *out;
     unsigned char *standing; /* [bodies] standing */
     size_t turn;             /* index in the queue of the first body of the current batches */
@@ -67,7 +68,7 @@ static bool looks_for_contact(const flooding *f, uint32_t b, uint32_t other)
 /* Stores the bodies near body b in `near`. */
 static bool find_near_bodies(const flooding *f, uint32_t b, sunder_i_list *near)
 {
-    const sunder_i_model *model = &f->solver->model;
+    const sunder_i_model *model = f->model;
     const sunder_i_body *body = &model->body[b];
     double box[4];
     near->n = 0;
@@ -93,7 +94,7 @@ static bool add_contact(contacts *out, uint32_t b, uint32_t other)
 /* Adds the neighbours in rows whose springs to b act, because the two have moved by different vectors. */
 static bool find_springs(const flooding *f, uint32_t b, contacts *out)
 {
-    const sunder_i_model *model = &f->solver->model;
+    const sunder_i_model *model = f->model;
     const sunder_i_extras *has = model->body[b].has;
     const double *t = model->move + 2 * (size_t)b, *stiffness = model->rules.row_stiffness;
     if (!(stiffness[0] + stiffness[1] > 0)) return true;
@@ -109,7 +110,7 @@ static bool find_springs(const flooding *f, uint32_t b, contacts *out)
 
 static bool find_contacts(const flooding *f, uint32_t b, sunder_i_list *near, contacts *out)
 {
-    const sunder_i_model *model = &f->solver->model;
+    const sunder_i_model *model = f->model;
     if (!find_springs(f, b, out) || !find_near_bodies(f, b, near)) return false;
     for (size_t k = 0; k < near->n; k++) {
         const uint32_t other = near->item[k];
@@ -186,7 +187,12 @@ static sunder_status flood_from_queue(flooding *f, sunder_error *err)
 
 sunder_status sunder_i_flood_contacts(sunder_i_solver *solver, sunder_i_flood *out, sunder_error *err)
 {
-    flooding f = {.solver = solver, .out = out, .standing = sunder_i_calloc(solver->model.bodies, sizeof *f.standing)};
+    sunder_i_barriers barriers;
+    const sunder_i_model full = sunder_i_with_full_gap(&solver->model, &barriers);
+    flooding f = {.solver = solver,
+                  .model = solver->eased ? &full : &solver->model,
+                  .out = out,
+                  .standing = sunder_i_calloc(solver->model.bodies, sizeof *f.standing)};
     *out = (sunder_i_flood){.parent = sunder_i_alloc(solver->model.bodies, sizeof *out->parent)};
     const sunder_status status = f.standing && out->parent ? flood_from_queue(&f, err) : sunder_i_failure_cause(err);
     for (size_t k = 0; k < BATCHES_AT_ONCE; k++) sunder_i_free(f.batch[k].pair);

@@ -1,11 +1,13 @@
-/* Eases the pairs that are left in conflict, after all other stages: each cluster moves to where the sum of moves,
- * springs and prices (layer/prices.h) is least. An exact check decides on the moves of each cluster: no pair comes into
- * conflict, no conflict becomes an overlap, and none stands worse than at the start.
+/* Eases the pairs that are left in conflict, and with a full gap the tight ones, after all other stages: each cluster
+ * moves to where the sum of moves, springs and prices (layer/prices.h) is least. An exact check decides on the moves of
+ * each cluster: no pair comes into conflict, no conflict becomes an overlap, and none stands worse than at the start.
  *
  * There are two remedies if the check refuses a pair. If it is a pair of two clusters, these become one. If it is one
  * within the cluster, rounding made it a little worse: its bodies are pinned where they stand, and the cluster is eased
- * again. Bodies that are in the way of a cluster join it, too. */
+ * again. Bodies that are in the way of a cluster join it, too, and so do those that it has come nearer to than the full
+ * gap. */
 #include "base/extremes.h"
+#include "base/union_find.h"
 #include "displacement/solve/clusters/cluster_stages.h"
 #include "displacement/solve/clusters/trial.h"
 #include "displacement/solve/clusters/tuning.h"
@@ -30,18 +32,35 @@ static bool has_to_ease(const sunder_i_solver *s, const sunder_i_cluster *c)
     return sunder_i_solver_any_of(s, c->body, c->n, is_to_ease);
 }
 
-/* Joins the bodies of each conflict of which one may move. */
-static sunder_status join_conflicts(sunder_i_solver *s, sunder_error *err)
+/* Joins the bodies of each of these pairs that is in conflict, or tight, if one of them may move. With a full gap the
+ * bodies are to be eased: all of them, or those that were in different clusters. *any: there were some. */
+static sunder_status join_pairs(sunder_i_solver *s, const sunder_i_relations *relations, bool all, bool *any,
+                                sunder_error *err)
 {
     const sunder_i_model *model = &s->model;
-    for (size_t k = 0; k < s->now.n; k++) {
-        const sunder_i_relation *r = &s->now.pair[k];
+    *any = false;
+    for (size_t k = 0; k < relations->n; k++) {
+        const sunder_i_relation *r = &relations->pair[k];
         const uint32_t i = model->body_of[r->a], j = model->body_of[r->b];
         if (!sunder_i_is_conflict_of_bodies(model, r)) continue;
         if (!sunder_i_may_move(&model->body[i]) && !sunder_i_may_move(&model->body[j])) continue;
+        const uint32_t mover = model->body[i].fixed ? j : i, other = mover == i ? j : i;
+        const bool fresh = all || !sunder_i_solver_has_member(s, sunder_i_union_find(s->parent, mover), other);
+        if (fresh && sunder_i_has_slack(model)) *any = s->to_ease[i] = s->to_ease[j] = true;
         if (!sunder_i_solver_add_edge(s, i, j)) return sunder_i_failure_cause(err);
     }
     return sunder_i_solver_gather(s, err);
+}
+
+/* Makes a cluster of the bodies that are linked by pairs that lack some of their distance. */
+static sunder_status join_short_pairs(sunder_i_solver *s, bool all, bool *any, sunder_error *err)
+{
+    if (!sunder_i_has_slack(&s->model)) return join_pairs(s, &s->now, all, any, err);
+    sunder_i_relations full = {0};
+    sunder_status status = sunder_i_placement_relate_fully(&s->model, &s->placement, &full, err);
+    if (!status) status = join_pairs(s, &full, all, any, err);
+    sunder_i_free(full.pair);
+    return status;
 }
 
 /* How far bodies of the cluster may go: as far as their limits, or about their size, let them. */
@@ -50,7 +69,7 @@ static double farthest_of(const sunder_i_model *model, const sunder_i_cluster *c
     double far = 0;
     for (size_t k = 0; k < c->n; k++) {
         const sunder_i_body *b = &model->body[c->body[k]];
-        const double size = sunder_i_max(b->box[2] - b->box[0], b->box[3] - b->box[1]) + model->rules.gap;
+        const double size = sunder_i_max(b->box[2] - b->box[0], b->box[3] - b->box[1]) + model->rules.full_gap;
         if (sunder_i_may_move(b)) far = sunder_i_max(far, sunder_i_min(b->limit, size));
     }
     return far;
@@ -183,20 +202,30 @@ static sunder_status gather_groups(sunder_i_solver *s, sunder_error *err)
     return ok ? sunder_i_solver_gather_groups(s, err) : sunder_i_failure_cause(err);
 }
 
+/* One round: eases clusters, and then joins those that are in each other's way, if there are any (*more). */
+static sunder_status ease_round(sunder_i_solver *s, bool *more, sunder_error *err)
+{
+    bool again, apart = false;
+    sunder_status status = sunder_i_solver_unite_blocks(s, err);
+    if (!status) status = ease_clusters(s, has_to_ease, &again, err);
+    for (int k = 0; k < MOST_PINNINGS && again && !status; k++) status = ease_clusters(s, has_pinned, &again, err);
+    for (size_t b = 0; b < s->model.bodies; b++) s->model.body[b].pinned = false;
+    if (!status) status = join_guests(s, more, err);
+    if (!status && sunder_i_has_slack(&s->model)) status = join_short_pairs(s, false, &apart, err);
+    *more = *more || apart;
+    return status;
+}
+
 sunder_status sunder_i_solver_ease(sunder_i_solver *solver, sunder_error *err)
 {
-    bool more = true;
-    sunder_status status = mark_short(solver) ? join_conflicts(solver, err) : sunder_i_failure_cause(err);
-    for (int round = 0; round < MOST_JOININGS && more && !status; round++) {
-        bool again;
-        status = sunder_i_solver_unite_blocks(solver, err);
-        if (!status) status = ease_clusters(solver, has_to_ease, &again, err);
-        for (int k = 0; k < MOST_PINNINGS && again && !status; k++)
-            status = ease_clusters(solver, has_pinned, &again, err);
-        for (size_t b = 0; b < solver->model.bodies; b++) solver->model.body[b].pinned = false;
-        if (!status) status = join_guests(solver, &more, err);
-    }
+    bool more = true, any;
+    const bool slack = sunder_i_has_slack(&solver->model);
+    sunder_status status =
+        mark_short(solver) ? join_short_pairs(solver, true, &any, err) : sunder_i_failure_cause(err);
+    for (int round = 0; round < (slack ? MOST_JOININGS_OF_TIGHT : MOST_JOININGS) && more && !status; round++)
+        status = ease_round(solver, &more, err);
     sunder_i_free(solver->to_ease);
     solver->to_ease = NULL;
-    return status || !solver->groups.n ? status : gather_groups(solver, err);
+    solver->eased = true;
+    return status || !(solver->groups.n || slack) ? status : gather_groups(solver, err);
 }

@@ -91,6 +91,7 @@ typedef struct sunder_i_solver {
     bool had_limits;     /* limits were lifted at first */
     bool may_hold;       /* bodies may be held (coarse_bodies.c) */
     bool any_let_go;     /* held bodies were let go */
+    bool eased;          /* pairs were eased: contact is contact at the full distance */
     struct sunder_i_held_layout *held_layout; /* the layout before that (cluster_stages.h); lent */
     sunder_i_groups groups;
 } sunder_i_solver;

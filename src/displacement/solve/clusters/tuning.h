@@ -6,7 +6,7 @@
 
 /* SUNDER_I_CLUSTERS_TUNING_VERSION is the version of the values below. It is raised with each change of a value, so
  * that a record can name the values by their version (tests/house/TUNING). */
-#define SUNDER_I_CLUSTERS_TUNING_VERSION 8
+#define SUNDER_I_CLUSTERS_TUNING_VERSION 9
 
 /* ---- Rounds (settle.c, clusters.c) ------------------------------------------------------------------------------- */
 
@@ -176,7 +176,9 @@
 /* A cluster that the exact check refuses is eased at most MOST_PINNINGS times more, each time with one pair more left
  * as it is. */
 #define MOST_PINNINGS 8
-/* Bodies in the way join clusters in at most MOST_JOININGS - 1 rounds. */
+/* Bodies in the way join clusters in at most MOST_JOININGS - 1 rounds; with a full gap, where every pair may be short,
+ * in at most MOST_JOININGS_OF_TIGHT - 1. Clusters that nothing has joined are not eased again. */
 #define MOST_JOININGS 6
+#define MOST_JOININGS_OF_TIGHT 24
 
 #endif

@@ -29,6 +29,14 @@ typedef struct sunder_i_shortfall {
     bool known;
 } sunder_i_shortfall;
 
+/* Two bodies that keep their distance, or a body and the parts of one barrier, and their full distance, to first order:
+ * n.(t_j - t_i) >= d. */
+typedef struct sunder_i_short_pair {
+    uint32_t i, j, whole; /* indices in the search: i may move; whole: the thing that stands for j or its barrier */
+    double missing;       /* of the full distance; negative: this is to spare */
+    double n[2], d;
+} sunder_i_short_pair;
+
 typedef struct sunder_i_search {
     const sunder_i_model *model;
     const uint32_t *body;       /* [n] the bodies; the first `own` may move, unless fixed */
@@ -59,6 +67,10 @@ typedef struct sunder_i_search {
     sunder_i_shortfall *shortfall; /* [shortfalls] of the pairs that are eased; none unless sunder_i_search_ease() */
     size_t shortfalls, shortfall_capacity;
     sunder_i_list creditor;                       /* the other bodies of these pairs */
+    sunder_i_short_pair *tight; /* [tights] pairs that stand nearer than their full distance, as they were found last */
+    size_t tights, tight_capacity;
+    bool fully;        /* what pairs lack is measured by their full distances */
+    bool prices_tight; /* such pairs have a price (tight_pairs.c) */
     double cap;                                   /* an upper bound of all moves, besides limits; INFINITY: none */
     struct sunder_i_neighbourhood *neighbourhood; /* changes are tried with these bodies alone; NULL: with all; lent */
     sunder_i_rtree visited;   /* boxes of the paths from home, of a large cluster (visited_boxes.c) */
@@ -151,6 +163,11 @@ void sunder_i_search_visit_near_or_home(sunder_i_search *search, double reach, s
 bool sunder_i_search_ease(sunder_i_search *search);
 /* The same for the pairs that this search relaxed, in place of those of the model. */
 bool sunder_i_search_ease_own(sunder_i_search *search);
+/* Does the cost of a layout include prices? */
+static inline bool sunder_i_search_has_prices(const sunder_i_search *search)
+{
+    return search->shortfalls > 0 || search->prices_tight;
+}
 /* The price of what pairs lack at the moves t; 0 if no pairs are eased. */
 double sunder_i_search_shortfall_price(sunder_i_search *search, const double *t);
 /* Adds a priced constraint to the program for each pair that lacks something at the present moves. */
@@ -159,7 +176,7 @@ void sunder_i_search_constrain_shortfalls(sunder_i_search *search);
 /* ---- layout_cost.c ----------------------------------------------------------------------------------------------- */
 
 /* The cost of the moves t: the sum of weight times squared move, of the springs of rows, and of the prices of pairs
- * that are eased. */
+ * that are eased or tight. */
 double sunder_i_search_cost(sunder_i_search *search, const double *t);
 
 /* ---- visited_boxes.c: where bodies have been --------------------------------------------------------------------- */
@@ -234,6 +251,29 @@ const sunder_i_obstacle_edge *sunder_i_search_edges(sunder_i_search *search, con
 /* The violation of pair (i, j) at relative position u. If the full distance is violated and the pair is relaxed,
  * *yields is set and the result is the violation of the relaxation. */
 double sunder_i_search_pair(sunder_i_search *search, uint32_t i, uint32_t j, const double u[2], bool *yields);
+
+/* ---- tight_pairs.c: pairs between the distance that they have to keep and the full one --------------------------- */
+
+/* The price of what such pairs lack of their full distance at the moves t; 0 unless search->prices_tight. */
+double sunder_i_search_tight_price(sunder_i_search *search, const double *t);
+/* Adds a priced constraint to the program for each pair that is within `reach` of its full distance at the present
+ * moves, unless it is left in conflict. */
+void sunder_i_search_constrain_tight(sunder_i_search *search, double reach);
+/* Is it the key of such a constraint? If so, sets *i and *j to the indices of its bodies. */
+bool sunder_i_search_is_tight_key(uint64_t key, uint32_t *i, uint32_t *j);
+/* The full gap, if search->fully; else the gap. With the margin. */
+static inline double sunder_i_search_full_gap(const sunder_i_search *search)
+{
+    return search->fully ? search->gap + (search->model->rules.full_gap - search->model->rules.gap) : search->gap;
+}
+/* By how much the full distance of two things exceeds the one that they have to keep; 0 unless search->fully. */
+double sunder_i_search_slack(const sunder_i_search *search, const sunder_i_piece_pair *pair);
+/* What the pieces of two bodies lack of their full distance at relative position u; at least 0. */
+double sunder_i_search_missing(sunder_i_search *search, uint32_t i, uint32_t j, const double u[2]);
+/* What body j, with the move u relative to body i, lacks of the rule of rows with the full gap; negative: it lacks
+ * nothing. along: the direction in which it lacks it. */
+double sunder_i_search_missing_along(const sunder_i_search *search, uint32_t i, uint32_t j, const double u[2],
+                                     const double **along);
 
 /* ---- shadows.c: which bodies may not pass which ------------------------------------------------------------------ */
 

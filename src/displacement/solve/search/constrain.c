@@ -7,14 +7,7 @@
 #include "base/extremes.h"
 #include "base/sort.h"
 
-#include <stdlib.h>
 #include <string.h>
-
-static const sunder_i_constraint *look_up(const sunder_i_constraint *c, size_t n, uint64_t key)
-{
-    const sunder_i_constraint wanted = {.key = key};
-    return n ? bsearch(&wanted, c, n, sizeof *c, sunder_i_by_constraint) : NULL;
-}
 
 /* How the constraints of a pair (i, j) are made: for all pairs of pieces within gap + reach of each other at the
  * relative position `near`. The side of each is chosen at the relative position u. Pairs of pieces that have a
@@ -37,7 +30,7 @@ static void constrain_pieces(sunder_i_search *s, const sunder_i_piece_pair *pair
 {
     const sighted *bodies = context;
     const sighting *at = bodies->at;
-    if (look_up(at->known, at->known_n, pair->key)) return;
+    if (sunder_i_search_look_up(at->known, at->known_n, pair->key)) return;
     double gap;
     size_t n;
     if (sunder_i_search_is_clear(s, pair, at->near, at->reach + s->gap)) return;
@@ -46,7 +39,6 @@ static void constrain_pieces(sunder_i_search *s, const sunder_i_piece_pair *pair
     sunder_i_support h = sunder_i_search_support(pair, edge, n, at->near);
     if (h.distance > (pair->shadow ? gap : sunder_i_max(s->gap, gap)) + at->reach) return;
     if (at->near != at->u) h = sunder_i_search_support(pair, edge, n, at->u);
-    const sunder_i_constraint *before = look_up(s->old, s->old_n, pair->key);
     double d = h.support + gap;
     /* If the position violates d by at most the tolerance, d is lowered to the present value. Otherwise an exact fit
      * that is missed by a little on two sides would be a contradiction. While `roughly` is set d is not lowered, since
@@ -68,7 +60,7 @@ static void constrain_pieces(sunder_i_search *s, const sunder_i_piece_pair *pair
                                                           .j = ends[1],
                                                           .n = {h.n[0], h.n[1]},
                                                           .d = d,
-                                                          .force = before ? before->force : 0,
+                                                          .force = sunder_i_search_force_before(s, pair->key),
                                                           .key = pair->key});
 }
 
@@ -157,8 +149,7 @@ static void add_spring(sunder_i_search *s, const sunder_i_row_link *link, size_t
             c.d += (e ? -1 : 1) * (c.n[0] * t[0] + c.n[1] * t[1]);
             *(e ? &c.j : &c.i) = SUNDER_I_GROUND;
         }
-        const sunder_i_constraint *before = look_up(s->old, s->old_n, c.key);
-        c.force = before ? before->force : 0;
+        c.force = sunder_i_search_force_before(s, c.key);
         sunder_i_search_add_constraint(s, s->program.n, &c);
     }
 }
@@ -194,6 +185,7 @@ bool sunder_i_search_constrain(sunder_i_search *search, double reach, bool as_it
             sunder_i_search_add_constraint(search, p->n, &search->old[k]);
     add_springs(search);
     sunder_i_search_constrain_shortfalls(search);
+    sunder_i_search_constrain_tight(search, reach);
     sort_constraints(search);
     memcpy(search->next, search->t,
            2 * search->n * sizeof *search->t); /* if the patience has ended, the search stays in its present place */

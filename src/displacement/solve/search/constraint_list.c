@@ -3,6 +3,19 @@
 #include "displacement/solve/search/tuning.h"
 
 #include <math.h>
+#include <stdlib.h>
+
+const sunder_i_constraint *sunder_i_search_look_up(const sunder_i_constraint *c, size_t n, uint64_t key)
+{
+    const sunder_i_constraint wanted = {.key = key};
+    return n ? bsearch(&wanted, c, n, sizeof *c, sunder_i_by_constraint) : NULL;
+}
+
+double sunder_i_search_force_before(const sunder_i_search *search, uint64_t key)
+{
+    const sunder_i_constraint *before = sunder_i_search_look_up(search->old, search->old_n, key);
+    return before ? before->force : 0;
+}
 
 /* Pieces along one wall give almost equal constraints, of which the program needs only the strongest. The forces of the
  * others are added to it. */

@@ -314,7 +314,7 @@ typedef enum outcome { ON, SETTLED_DOWN, IN_VAIN } outcome;
 static void shorten_step(const descent *d, double *left, double *cost)
 {
     sunder_i_search *s = d->s;
-    for (int k = 0; k < MOST_HALVINGS && s->shortfalls && d->is_free && !s->failed; k++) {
+    for (int k = 0; k < MOST_HALVINGS && sunder_i_search_has_prices(s) && d->is_free && !s->failed; k++) {
         if (*left <= s->tolerance && *cost < d->cost) return;
         for (size_t c = 0; c < 2 * s->n; c++) s->next[c] = (s->t[c] + s->next[c]) / 2;
         s->ended = false;
@@ -365,7 +365,7 @@ static bool descend_by_rounds(sunder_i_search *s)
     if (!descent_init(&d, s)) s->failed = true;
     /* A pair is eased from a layout without clashes, and a program that knows its price only to first order may end
      * dearer. */
-    d.is_free = s->shortfalls > 0;
+    d.is_free = sunder_i_search_has_prices(s);
     if (d.is_free) d.cost = sunder_i_search_cost(s, s->t);
     outcome last = ON;
     for (int round = 0; round < MOST_ROUNDS && last == ON && !is_out_of_patience(s) && !s->failed; round++)
@@ -379,7 +379,7 @@ static bool descend_by_rounds(sunder_i_search *s)
 bool sunder_i_search_descend(sunder_i_search *search)
 {
     const double tolerance = search->tolerance, settled = search->settled;
-    search->program.most_cost = search->shortfalls ? 0 : most_cost(search);
+    search->program.most_cost = sunder_i_search_has_prices(search) ? 0 : most_cost(search);
     if (!descends_coarsely(search)) return descend_by_rounds(search);
     search->tolerance = sunder_i_max(tolerance, ROUGHLY * search->extent);
     search->settled = sunder_i_max(settled, ROUGHLY_SETTLED);

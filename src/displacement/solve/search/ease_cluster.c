@@ -4,6 +4,27 @@
 #include "displacement/solve/search/search_stages.h"
 #include "displacement/solve/search/tuning.h"
 
+#include <math.h>
+
+/* Sets *a and *b to the bodies of a constraint of two pieces, or of a tight pair. Returns false if it is another. */
+static bool find_bodies(const sunder_i_search *s, const sunder_i_constraint *c, uint32_t *a, uint32_t *b)
+{
+    uint32_t i, j;
+    const bool tight = sunder_i_search_is_tight_key(c->key, &i, &j);
+    if (!tight && c->key >> 60) return false;
+    *a = tight ? s->body[i] : sunder_i_body_of_piece(s->model, (uint32_t)(c->key >> 32));
+    *b = tight ? s->body[j] : sunder_i_body_of_piece(s->model, (uint32_t)c->key);
+    return true;
+}
+
+static bool add_guest(sunder_i_cluster *cluster, uint32_t own, uint32_t guest)
+{
+    if (!sunder_i_reserve(&cluster->guest, &cluster->guest_capacity, cluster->guests + 1, sizeof *cluster->guest))
+        return false;
+    cluster->guest[cluster->guests++] = (sunder_i_id_pair){own, guest};
+    return true;
+}
+
 /* Adds to cluster->guest the bodies outside the cluster that may move and that its bodies press against. False if
  * memory is out. */
 static bool find_guests(const sunder_i_search *s, sunder_i_cluster *cluster)
@@ -11,17 +32,42 @@ static bool find_guests(const sunder_i_search *s, sunder_i_cluster *cluster)
     const sunder_i_model *model = s->model;
     for (size_t k = 0; k < s->program.n; k++) {
         const sunder_i_constraint *c = &s->program.constraint[k];
-        if (!(c->force > 0) || c->key >> 60) continue; /* not of two pieces */
-        const uint32_t a = sunder_i_body_of_piece(model, (uint32_t)(c->key >> 32)),
-                       b = sunder_i_body_of_piece(model, (uint32_t)c->key);
+        uint32_t a, b;
+        if (!(c->force > 0) || !find_bodies(s, c, &a, &b)) continue;
         const bool has_a = sunder_i_set_has(cluster->body, cluster->n, a),
                    has_b = sunder_i_set_has(cluster->body, cluster->n, b);
         if (has_a == has_b || !sunder_i_may_move(&model->body[has_a ? b : a])) continue;
-        if (!sunder_i_reserve(&cluster->guest, &cluster->guest_capacity, cluster->guests + 1, sizeof *cluster->guest))
-            return false;
-        cluster->guest[cluster->guests++] = has_a ? (sunder_i_id_pair){a, b} : (sunder_i_id_pair){b, a};
+        if (!add_guest(cluster, has_a ? a : b, has_a ? b : a)) return false;
     }
     return true;
+}
+
+/* With a full gap whole rows are eased: adds the neighbours outside the cluster whose springs to its bodies act. */
+static bool find_row_guests(const sunder_i_search *s, sunder_i_cluster *cluster)
+{
+    sunder_i_row_link link;
+    for (sunder_i_row_walk walk = {0}; sunder_i_search_next_row(s, &walk, &link);) {
+        const uint32_t other = link.side->other;
+        const double *t = s->t + 2 * (size_t)link.i, *still = s->model->move + 2 * (size_t)other;
+        if (link.i >= cluster->n || sunder_i_set_has(cluster->body, cluster->n, other)) continue;
+        if (!sunder_i_may_move(&s->model->body[other])) continue;
+        if (!(hypot(t[0] - still[0], t[1] - still[1]) > ACTING_SPRING * s->model->rules.full_gap)) continue;
+        if (!add_guest(cluster, s->body[link.i], other)) return false;
+    }
+    return true;
+}
+
+/* Descends from the moves of the search. Returns whether that ends without clashes at a lower cost. */
+static bool descend(sunder_i_search *s)
+{
+    s->prices_tight = s->fully = sunder_i_has_slack(s->model);
+    const double before = sunder_i_search_cost(s, s->t);
+    s->prices_tight = false;
+    s->settled = EASED;
+    if (!(before > 0 && sunder_i_search_keep_margins(s))) return false;
+    s->prices_tight = s->fully;
+    s->program.n = 0;
+    return sunder_i_search_descend(s) && sunder_i_search_cost(s, s->t) < before * (1 - CHEAPER);
 }
 
 sunder_status sunder_i_cluster_ease(const sunder_i_model *model, sunder_i_cluster *cluster, double *move, bool *done,
@@ -31,18 +77,12 @@ sunder_status sunder_i_cluster_ease(const sunder_i_model *model, sunder_i_cluste
     *done = false;
     const bool ok = sunder_i_search_init_about(&s, model, cluster, move) && sunder_i_search_ease(&s);
     s.failed = s.failed || !ok;
-    if (!s.failed && s.shortfalls) {
-        const double before = sunder_i_search_cost(&s, s.t);
-        s.settled = EASED;
-        const bool kept = before > 0 && sunder_i_search_keep_margins(&s);
-        if (kept) {
-            s.program.n = 0;
-            *done = sunder_i_search_descend(&s) && sunder_i_search_cost(&s, s.t) < before * (1 - CHEAPER);
-        }
-        s.n = cluster->n;
-        if (*done && !s.failed) sunder_i_search_round(&s, move);
-    }
-    if (!s.failed && s.shortfalls && !find_guests(&s, cluster)) s.failed = true;
+    const bool priced = s.shortfalls || sunder_i_has_slack(model);
+    if (!s.failed && priced) *done = descend(&s);
+    s.n = cluster->n;
+    if (*done && !s.failed) sunder_i_search_round(&s, move);
+    if (!s.failed && priced && !find_guests(&s, cluster)) s.failed = true;
+    if (!s.failed && s.prices_tight && !find_row_guests(&s, cluster)) s.failed = true;
     const bool failed = s.failed;
     sunder_i_search_free(&s);
     return failed ? sunder_i_failure_cause(err) : SUNDER_OK;

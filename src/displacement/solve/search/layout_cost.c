@@ -1,9 +1,9 @@
-/* What a layout costs: moves, springs, and what pairs that are eased lack. */
+/* What a layout costs: moves, springs, and what pairs that are eased, and tight ones, lack. */
 #include "displacement/solve/search/cluster_search.h"
 
 double sunder_i_search_cost(sunder_i_search *search, const double *t)
 {
-    double cost = sunder_i_search_shortfall_price(search, t);
+    double cost = sunder_i_search_shortfall_price(search, t) + sunder_i_search_tight_price(search, t);
     for (size_t k = 0; k < search->n; k++)
         if (search->mass[k] > 0) cost += (t[2 * k] * t[2 * k] + t[2 * k + 1] * t[2 * k + 1]) / (2 * search->mass[k]);
     sunder_i_row_link link;

@@ -50,6 +50,10 @@ static inline int sunder_i_by_constraint(const void *a, const void *b)
     const sunder_i_constraint *c = a, *d = b;
     return c->key < d->key ? -1 : c->key > d->key;
 }
+/* Returns the one of n constraints, sorted by their keys, that has this key; NULL if there is none. */
+const sunder_i_constraint *sunder_i_search_look_up(const sunder_i_constraint *c, size_t n, uint64_t key);
+/* The force that the constraint with this key had in the last program; 0 if it had none. */
+double sunder_i_search_force_before(const sunder_i_search *search, uint64_t key);
 /* Adds a constraint to the program, unless one of the constraints from index `first` on implies it. A weaker one is
  * replaced. */
 void sunder_i_search_add_constraint(sunder_i_search *search, size_t first, const sunder_i_constraint *constraint);

@@ -86,6 +86,7 @@ static void forbid_pieces(sunder_i_search *s, const sunder_i_piece_pair *pair, v
     const size_t n = sunder_i_search_obstacle(s, pair, &gap);
     for (size_t k = 0; k < 2 * n; k++) s->scratch.xy[k] += f->shift[k & 1];
     s->steps += OBSTACLE_WORK;
+    gap += sunder_i_search_slack(s, pair);
     if (n) sunder_i_obstacles_add(f->obstacles, s->scratch.xy, n, sunder_i_max(gap, 0) + 2 * s->tolerance);
 }
 
@@ -99,7 +100,7 @@ static bool find_place(sunder_i_search *s, const sunder_i_shortfall *f, const do
         const uint32_t j = s->creditor.item[k];
         const double *from = t + 2 * (size_t)j, u[2] = {at[0] - from[0], at[1] - from[1]};
         forbidding all = {&s->obstacles, from};
-        sunder_i_search_piece_pairs(s, j, f->i, u, reach + s->gap, false, forbid_pieces, &all);
+        sunder_i_search_piece_pairs(s, j, f->i, u, reach + sunder_i_search_full_gap(s), false, forbid_pieces, &all);
     }
     const size_t n = sunder_i_free_places(&s->obstacles, at, reach, 0, 1, found, &s->steps, &s->failed);
     s->failed = s->failed || s->obstacles.failed;
@@ -114,8 +115,19 @@ static bool is_short(sunder_i_search *s, const sunder_i_shortfall *f, const doub
         const uint32_t j = s->creditor.item[k], a = j < f->i ? j : f->i, b = j < f->i ? f->i : j;
         const double u[2] = {t[2 * b] - t[2 * a], t[2 * b + 1] - t[2 * a + 1]};
         sunder_i_search_pair(s, a, b, u, &yields);
+        if (!yields && s->fully) yields = sunder_i_search_missing(s, a, b, u) > s->tolerance;
     }
     return yields;
+}
+
+/* With a full gap, neighbours in a row also lack what they lack of its rule; the nearest place is then along it. */
+static void measure_along(const sunder_i_search *s, sunder_i_shortfall *f)
+{
+    const double u[2] = {f->from[0] - f->at[0], f->from[1] - f->at[1]}, *along = NULL,
+                 missing = sunder_i_search_missing_along(s, f->i, s->creditor.item[f->other], u, &along);
+    if (!(missing > f->missing)) return;
+    f->missing = missing;
+    for (int c = 0; c < 2; c++) f->place[c] = f->at[c] - missing * along[c];
 }
 
 /* Computes what the pair lacks at t, unless it is known. */
@@ -127,13 +139,15 @@ static void measure(sunder_i_search *s, sunder_i_shortfall *f, const double *t)
     memcpy(f->from, from, sizeof f->from);
     f->known = true;
     f->missing = 0;
-    if (!is_short(s, f, t)) return;
-    const sunder_i_body *p = &s->model->body[s->body[f->i]];
-    const double size = sunder_i_max(p->box[2] - p->box[0], p->box[3] - p->box[1]) + s->gap;
-    f->missing = INFINITY;
-    for (double reach = size / 2; reach <= BEYOND_ALL * size && f->missing == INFINITY && !s->failed;
-         reach *= PAIR_GROWTH)
-        if (find_place(s, f, t, reach, f->place)) f->missing = hypot(f->place[0] - at[0], f->place[1] - at[1]);
+    if (is_short(s, f, t)) {
+        const sunder_i_body *p = &s->model->body[s->body[f->i]];
+        const double size = sunder_i_max(p->box[2] - p->box[0], p->box[3] - p->box[1]) + s->gap;
+        f->missing = INFINITY;
+        for (double reach = size / 2; reach <= BEYOND_ALL * size && f->missing == INFINITY && !s->failed;
+             reach *= PAIR_GROWTH)
+            if (find_place(s, f, t, reach, f->place)) f->missing = hypot(f->place[0] - at[0], f->place[1] - at[1]);
+    }
+    if (s->fully) measure_along(s, f);
 }
 
 double sunder_i_search_shortfall_price(sunder_i_search *search, const double *t)

@@ -33,7 +33,7 @@ static bool find_surroundings(const sunder_i_model *model, const sunder_i_cluste
         const sunder_i_body *b = &model->body[cluster->body[k]];
         if (b->fixed || b->pieces == 0) continue;
         const double reach =
-            model->rules.gap + cluster->margin +
+            model->rules.full_gap + cluster->margin +
             MOVES_ABOUT * sunder_i_max(sunder_i_max(larger_coordinate(own + 2 * k), mean), cluster->about);
         double box[4];
         sunder_i_body_box(b, none, reach, box);

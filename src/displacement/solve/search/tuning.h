@@ -8,7 +8,7 @@
 
 /* SUNDER_I_SEARCH_TUNING_VERSION is the version of the values below. It is raised with each change of a value, so that
  * a record can name the values by their version (tests/house/TUNING). */
-#define SUNDER_I_SEARCH_TUNING_VERSION 7
+#define SUNDER_I_SEARCH_TUNING_VERSION 8
 
 /* ---- One descent (descend.c, constrain.c, limits.c) -------------------------------------------------------------- */
 
@@ -97,6 +97,8 @@
 #define SETTLED_BEST 1e-9
 /* The same for pairs that are eased: what the worst of them cost is far more than a round may gain for another. */
 #define EASED 1e-7
+/* Neighbours in a row whose moves differ by more than the share ACTING_SPRING of the full gap are eased together. */
+#define ACTING_SPRING 1e-2
 /* A step of a descent that eases pairs is halved at most MOST_HALVINGS times. */
 #define MOST_HALVINGS 6
 /* A descent that tries other sides is given up when all bodies return to within the share BACK of a body's extent from

@@ -22,7 +22,7 @@ static const sunder_conflict *beside_road(double x, double limit, sunder_layer_s
     static sunder_report *report;
     const double xy[4] = {x, -100, x, 100};
     const size_t line_end = 2;
-    const sunder_barrier road = {{.xy = xy, .line_end = &line_end, .lines = 1}, 2, 1, false};
+    const sunder_barrier road = {{.xy = xy, .line_end = &line_end, .lines = 1}, 2, 1, false, 0};
     scene s;
     size_t n;
     sunder_layer *layer = NULL;

@@ -37,10 +37,10 @@ static void begin(layer *l, bool barrier)
     if (!barrier) scene_add(&l->scene, bar);
     assert_int_equal(sunder_layer_new(l->scene.feature, l->scene.n, &l->layer, &err), SUNDER_OK);
     l->bar = polyset_shape_of_wkt(bar);
-    const sunder_barrier one = {{.shape = l->bar}, 0, -1, false};
+    const sunder_barrier one = {{.shape = l->bar}, 0, -1, false, 0};
     if (barrier) assert_int_equal(sunder_layer_set_barriers(l->layer, &one, 1, &err), SUNDER_OK);
     assert_int_equal(sunder_i_rules_of(&l->scene.options, &rules, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_barriers_make(l->layer, 1, &l->parts, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_barriers_make(l->layer, 1, 1, &l->parts, &err), SUNDER_OK);
     assert_int_equal(sunder_i_order_layer(l->layer, &l->parts, true, &l->work, &err), SUNDER_OK);
     assert_int_equal(sunder_i_model_init(&l->work, &l->parts, &rules, &l->model, &err), SUNDER_OK);
     assert_int_equal(sunder_i_relaxation_of(&l->model, 0, 1, &l->relaxation, &err), SUNDER_OK);

@@ -105,7 +105,7 @@ static void separate_beside(scene *s, const double *const *xy, const size_t *poi
     sunder_barrier barrier[4];
     assert_true(n <= 4);
     for (size_t k = 0; k < n; k++)
-        barrier[k] = (sunder_barrier){{.xy = xy[k], .line_end = &points[k], .lines = 1}, width[k], gap, false};
+        barrier[k] = (sunder_barrier){{.xy = xy[k], .line_end = &points[k], .lines = 1}, width[k], gap, false, 0};
     separate_beside_all(s, barrier, n);
 }
 
@@ -370,8 +370,8 @@ static void test_a_ray_along_a_slot(void **state)
     scene_add(&s, "POLYGON((0 3,3 3,0 10,0 3))");
     const sunder_feature *pool = scene_add_box(&s, 7, 5, 2, 1);
     s.n--; /* a barrier, not a feature */
-    const sunder_barrier barrier[] = {{{.xy = line, .line_end = &points, .lines = 1}, 0, 1, false},
-                                      {{.shape = pool->shape}, 1.5, 0.25, false}};
+    const sunder_barrier barrier[] = {{{.xy = line, .line_end = &points, .lines = 1}, 0, 1, false, 0},
+                                      {{.shape = pool->shape}, 1.5, 0.25, false, 0}};
     separate_beside_all(&s, barrier, 2);
     check_optimum(&s, 9.68350024);
     s.n++;

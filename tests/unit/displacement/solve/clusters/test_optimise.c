@@ -22,7 +22,7 @@ static void separate_beside_a_line(scene *s)
 {
     const double xy[] = {0, -2, 4, 14};
     const size_t end = 2;
-    const sunder_barrier line = {{.xy = xy, .line_end = &end, .lines = 1}, 0, -1, true};
+    const sunder_barrier line = {{.xy = xy, .line_end = &end, .lines = 1}, 0, -1, true, 0};
     sunder_layer *layer = NULL;
     assert_int_equal(sunder_layer_new(s->feature, s->n, &layer, NULL), SUNDER_OK);
     assert_int_equal(sunder_layer_set_barriers(layer, &line, 1, NULL), SUNDER_OK);

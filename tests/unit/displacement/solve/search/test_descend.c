@@ -45,7 +45,7 @@ static void go_down(double x)
     const sunder_i_relations none = {0};
     const double line[] = {x, 11, low[0], low[1], tip[0], tip[1]};
     const size_t points = 3;
-    const sunder_barrier barrier = {{.xy = line, .line_end = &points, .lines = 1}, 2 * half, -1, false};
+    const sunder_barrier barrier = {{.xy = line, .line_end = &points, .lines = 1}, 2 * half, -1, false, 0};
     double corner[2], move[4] = {0};
     scene s;
     sunder_layer *layer, work;
@@ -61,7 +61,7 @@ static void go_down(double x)
     assert_int_equal(sunder_layer_new(s.feature, s.n, &layer, &err), SUNDER_OK);
     assert_int_equal(sunder_layer_set_barriers(layer, &barrier, 1, &err), SUNDER_OK);
     assert_int_equal(sunder_i_rules_of(&s.options, &rules, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_barriers_make(layer, 0, &parts, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_barriers_make(layer, 0, 0, &parts, &err), SUNDER_OK);
     assert_int_equal(sunder_i_order_layer(layer, &parts, true, &work, &err), SUNDER_OK);
     assert_int_equal(sunder_i_model_init(&work, &parts, &rules, &model, &err), SUNDER_OK);
     assert_int_equal(sunder_i_model_join(&model, &none, &err), SUNDER_OK);
