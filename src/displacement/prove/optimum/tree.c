@@ -114,8 +114,10 @@ static bool examine_node(sunder_i_tree *t, uint32_t node, double *leaf)
 {
     sunder_i_tree_load(t, node);
     for (int round = 0; !t->failed; round++) {
-        /* Cuts by discs depend on the present forces, so these belong to the parent node. */
-        const double value = sunder_i_max(t->node[node].value, sunder_i_dual_value(&t->program));
+        /* Cuts by discs depend on the present forces, so these belong to the parent node. They may prove more than
+         * those that were recorded, since loading a node balances them anew. */
+        const double dual = sunder_i_dual_value(&t->program), value = sunder_i_max(t->node[node].value, dual);
+        if (t->task.keep && dual > t->node[node].value) sunder_i_tree_keep_forces(t, node);
         t->node[node].value = value;
         if (value >= t->task.goal) {
             t->node[node].state = SUNDER_I_CLOSED;
