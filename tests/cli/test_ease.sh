@@ -43,6 +43,21 @@ expect 3 check b.gpkg --input-layer bays --no-blocks --block-field sunder_blk --
     --stats bays.json
 [ "$(jq -c '[.moves.row, .conflicts.too_close]' bays.json)" = '[0,1]' ] || fail "bays: $(cat out)"
 
+# Three houses of a row, of which the one in the middle stands on the road and lacks half a metre: its neighbours follow
+# it, each by 10 / 11 of its move, and do not hold it back. F is the sum of 4.5^2 + 4 * 4.5 * 0.5 + 30 * 0.5^2 and of
+# 4.5^2 * 10 / 11 for each neighbour.
+{
+    echo "WKT,w"
+    echo '"POLYGON((0 8,20 8,20 28,0 28,0 8))",1'
+    echo '"POLYGON((25 2,45 2,45 22,25 22,25 2))",1'
+    echo '"POLYGON((50 8,70 8,70 28,50 28,50 8))",1'
+} | layer front.gpkg front POLYGON
+expect 3 separate front.gpkg follow.gpkg --gap 4 --max-shift 4.5 --rows auto --row-stiffness 10,1 --ease 30 \
+    --barrier road.gpkg,width=6 --stats follow.json
+jq -e '.rows.rows == 1 and (.displacement.cost - (20.25 + 9 + 7.5 + 2 * 20.25 * 10 / 11) | fabs) < 1e-6 and
+    (.rows.kink_p95 - 4.5 / 11 | fabs) < 1e-6' follow.json >/dev/null ||
+    fail "neighbours in a row do not follow: $(jq -c '.displacement, .rows' follow.json)"
+
 # Refused: no price, and what is not built.
 for kappa in 0 -1 x nan inf 3, ''; do
     expect 2 "${words[@]}" --ease="$kappa"

@@ -42,17 +42,21 @@ static bool find_guests(const sunder_i_search *s, sunder_i_cluster *cluster)
     return true;
 }
 
-/* With a full gap whole rows are eased: adds the neighbours outside the cluster whose springs to its bodies act. */
+/* Adds the neighbours in rows outside the cluster that its bodies pull: those of bodies that easing has moved from
+ * where they stood; with a full gap, where whole rows are eased, all whose springs act. As long as they stay they hold
+ * the cluster back. */
 static bool find_row_guests(const sunder_i_search *s, sunder_i_cluster *cluster)
 {
+    const sunder_i_model *model = s->model;
+    const double least = ACTING_SPRING * (s->prices_tight ? model->rules.full_gap : model->rules.gap);
     sunder_i_row_link link;
     for (sunder_i_row_walk walk = {0}; sunder_i_search_next_row(s, &walk, &link);) {
-        const uint32_t other = link.side->other;
-        const double *t = s->t + 2 * (size_t)link.i, *still = s->model->move + 2 * (size_t)other;
+        const uint32_t other = link.side->other, own = s->body[link.i];
+        const double *t = s->t + 2 * (size_t)link.i, *still = model->move + 2 * (size_t)(s->prices_tight ? other : own);
         if (link.i >= cluster->n || sunder_i_set_has(cluster->body, cluster->n, other)) continue;
-        if (!sunder_i_may_move(&s->model->body[other])) continue;
-        if (!(hypot(t[0] - still[0], t[1] - still[1]) > ACTING_SPRING * s->model->rules.full_gap)) continue;
-        if (!add_guest(cluster, s->body[link.i], other)) return false;
+        if (!sunder_i_may_move(&model->body[other])) continue;
+        if (!(hypot(t[0] - still[0], t[1] - still[1]) > least)) continue;
+        if (!add_guest(cluster, own, other)) return false;
     }
     return true;
 }
@@ -82,7 +86,7 @@ sunder_status sunder_i_cluster_ease(const sunder_i_model *model, sunder_i_cluste
     s.n = cluster->n;
     if (*done && !s.failed) sunder_i_search_round(&s, move);
     if (!s.failed && priced && !find_guests(&s, cluster)) s.failed = true;
-    if (!s.failed && s.prices_tight && !find_row_guests(&s, cluster)) s.failed = true;
+    if (!s.failed && (*done || s.prices_tight) && !find_row_guests(&s, cluster)) s.failed = true;
     const bool failed = s.failed;
     sunder_i_search_free(&s);
     return failed ? sunder_i_failure_cause(err) : SUNDER_OK;

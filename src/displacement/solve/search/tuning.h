@@ -97,7 +97,8 @@
 #define SETTLED_BEST 1e-9
 /* The same for pairs that are eased: what the worst of them cost is far more than a round may gain for another. */
 #define EASED 1e-7
-/* Neighbours in a row whose moves differ by more than the share ACTING_SPRING of the full gap are eased together. */
+/* Neighbours in a row whose moves differ by more than the share ACTING_SPRING of the full gap are eased together, and
+ * so are those of a body that easing has moved by more than this share of the gap. */
 #define ACTING_SPRING 1e-2
 /* A step of a descent that eases pairs is halved at most MOST_HALVINGS times. */
 #define MOST_HALVINGS 6
