@@ -61,7 +61,7 @@ static bool write_layer(check_run *run, gis_error *error)
     gis_sink_layer *layer;
     if (!run->sink) return true;
     return gis_conflicts_begin(run->sink, "", gis_id_type(&run->input), gis_source_crs(run->input.source), false,
-                               &layer, error) &&
+                               run->request.rules.has_least_gap, &layer, error) &&
            gis_write_report_conflicts(layer, &run->input, run->report, error) &&
            gis_write_moves(layer, &run->moves, error) && gis_sink_finish(run->sink, &result, error);
 }

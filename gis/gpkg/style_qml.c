@@ -220,15 +220,29 @@ static void add_conflict_symbol(gis_text *to, int rule)
     gis_text_print(to, "</symbol>\n");
 }
 
-static void add_conflicts(gis_text *to)
+/* The rule of tight pairs, and what takes these out of the rule of pairs of features. */
+#define IS_TIGHT "&quot;kind&quot; = 'tight'"
+#define NOT_TIGHT " AND NOT (" IS_TIGHT ")"
+
+static void add_conflicts(gis_text *to, bool with_tight)
 {
     gis_text_print(to, "<renderer-v2 type=\"RuleRenderer\" forceraster=\"0\" symbollevels=\"0\" "
                        "enableorderby=\"0\">\n<rules key=\"conflicts\">\n");
     for (int k = 0; k < CONFLICT_RULES; k++)
-        gis_text_print(to, "<rule key=\"conflict %d\" symbol=\"%d\" label=\"%s\" filter=\"%s\"/>\n", k, k,
-                       conflict_rules[k].label, conflict_rules[k].filter);
+        gis_text_print(to, "<rule key=\"conflict %d\" symbol=\"%d\" label=\"%s\" filter=\"%s%s\"/>\n", k, k,
+                       conflict_rules[k].label, conflict_rules[k].filter, with_tight && k == 0 ? NOT_TIGHT : "");
+    if (with_tight)
+        gis_text_print(to, "<rule key=\"tight\" symbol=\"%d\" label=\"tight\" filter=\"%s\"/>\n", CONFLICT_RULES,
+                       IS_TIGHT);
     gis_text_print(to, "</rules>\n<symbols>\n");
     for (int k = 0; k < CONFLICT_RULES; k++) add_conflict_symbol(to, k);
+    if (with_tight) {
+        char name[12];
+        snprintf(name, sizeof name, "%d", CONFLICT_RULES);
+        begin_symbol(to, "line", name);
+        add_line(to, "31,120,180,255", "0.5");
+        gis_text_print(to, "</symbol>\n");
+    }
     gis_text_print(to, "</symbols>\n</renderer-v2>\n");
 }
 
@@ -276,7 +290,8 @@ void gis_style_qml(gis_text *to, gis_style style, OGRwkbGeometryType type)
     case GIS_STYLE_NONE: break;
     case GIS_STYLE_STATUS: add_by_status(to, of); break;
     case GIS_STYLE_DISPLACEMENT: add_arrows(to); break;
-    case GIS_STYLE_CONFLICTS: add_conflicts(to); break;
+    case GIS_STYLE_CONFLICTS: add_conflicts(to, false); break;
+    case GIS_STYLE_WITH_TIGHT: add_conflicts(to, true); break;
     case GIS_STYLE_PUSHES: add_pushes(to); break;
     case GIS_STYLE_ROWS: add_rows(to); break;
     case GIS_STYLE_SYMBOLS: add_plain(to, of, "166,206,227,255", "31,78,120,255"); break;

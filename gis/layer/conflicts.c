@@ -171,7 +171,7 @@ void gis_conflict_texts_clear(gis_conflict_texts *scratch)
 }
 
 bool gis_conflicts_begin(gis_sink *sink, const char *suffix, OGRFieldType id, OGRSpatialReferenceH crs, bool by_row,
-                         gis_sink_layer **layer, gis_error *error)
+                         bool tight, gis_sink_layer **layer, gis_error *error)
 {
     const gis_field fields[N_CONFLICT_COLUMNS] = {
         [COLUMN_FID_A] = {"fid_a", OFTInteger64, 0},
@@ -198,7 +198,7 @@ bool gis_conflicts_begin(gis_sink *sink, const char *suffix, OGRFieldType id, OG
                                             .crs = crs,
                                             .fields = fields,
                                             .n_fields = by_row ? N_CONFLICT_COLUMNS : COLUMN_BY_ROW,
-                                            .style = GIS_STYLE_CONFLICTS};
+                                            .style = tight ? GIS_STYLE_WITH_TIGHT : GIS_STYLE_CONFLICTS};
     return gis_sink_add(sink, &request, layer, error);
 }
 

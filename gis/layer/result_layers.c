@@ -54,7 +54,7 @@ static bool write_conflicts(const gis_result *r, gis_sink *sink, gis_error *erro
     conflict_writer w = {0};
     const bool rows = gis_layer_core_options(r->input).rows != SUNDER_ROWS_NONE;
     const bool done = gis_conflicts_begin(sink, "conflicts", r->kind->id_type(r), gis_source_crs(r->input->source),
-                                          rows, &w.layer, error) &&
+                                          rows, r->input->request->rules.has_least_gap, &w.layer, error) &&
                       r->kind->conflicts(r, write_conflict, &w, error);
     gis_conflict_texts_clear(&w.scratch);
     return done;

@@ -115,7 +115,7 @@ static bool take_conflicts(gis_page_model *model, gis_error *error)
     if (!model->conflict) return gis_no_memory(error);
     for (size_t k = 0; k < n; k++) {
         const sunder_conflict *each = &conflicts[k];
-        if (each->inside_block) continue;
+        if (each->inside_block || each->kind == SUNDER_CONFLICT_TIGHT) continue;
         model->conflict[model->n_conflicts++] = each;
         mark_involved(model, each->a);
         mark_involved(model, each->b);

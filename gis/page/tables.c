@@ -183,6 +183,12 @@ static void add_counts(const gis_page_model *model, gis_text *to)
         gis_text_add(to, "</td></tr>\n");
     }
     gis_text_add(to, "</tbody></table>\n");
+    const size_t tight = model->request->summary->tight;
+    if (tight == 0) return;
+    gis_text_add(to, "<p class=\"note\">");
+    gis_print_count(to, tight);
+    gis_text_print(to, " more %s tight: between the least gap and the gap.</p>\n",
+                   tight == 1 ? "pair is" : "pairs are");
 }
 
 static void open_term(gis_text *to, const char *name) { gis_text_print(to, "<div><dt>%s</dt><dd>", name); }

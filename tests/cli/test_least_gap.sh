@@ -21,7 +21,11 @@ gaps() {
 }
 
 # They share it: no conflict, eleven tight pairs, and gaps that differ by less than a third.
-expect 0 "${row[@]}" --max-shift 12.5 --least-gap 1
+expect 0 "${row[@]}" --max-shift 12.5 --least-gap 1 --report r.html
+grep -q '>11 more pairs are tight' r.html || fail "the page does not count tight pairs"
+! grep -q 'id="blocked"' r.html || fail "the page calls tight pairs blocked"
+styled() { ogr2ogr -q -f CSV /vsistdout/ o.gpkg layer_styles | grep -c "kind&quot; = 'tight'"; }
+[ "$(styled)" -gt 0 ] || fail "no style of tight pairs"
 between "$(cat s.json)" '$s | (.conflicts.before + .conflicts.after | add) == 0 and .blocked == 0 and .verified and
     .shortfall.pairs == 11 and .shortfall.tight == 11 and (.shortfall.sum - 19 | fabs) < 1e-6 and .rows.kink_mean == 0 and
     (.displacement | (.cost - .cost_moves - .cost_rows - .cost_shortfall | fabs) < 1e-6 and .lower_bound <= .cost)' shared
@@ -40,6 +44,7 @@ expect 0 check o.gpkg --input-layer houses --gap 5 --least-gap 1 --before twelve
 # Without a limit, and with a least gap or with none, a row stays a row; without a least gap nothing is short.
 expect 0 "${row[@]}" --ease 30
 between "$(cat s.json)" '$s | .shortfall.pairs == 0 and .displacement.cost_shortfall == 0' "no least gap"
+[ "$(styled)" = 0 ] || fail "a style of tight pairs, without a least gap"
 expect 0 "${row[@]}" --least-gap 5
 between "$(cat s.json)" '$s | .shortfall.pairs == 0 and (.displacement.cost_moves - 2288 | fabs) < 1e-4' "equal gaps"
 cp o.gpkg equal.gpkg
