@@ -2,7 +2,8 @@
 on all sides of the corrupt feature, next to several corrupt features. With the vertex at 1.4e8 and beyond, no more
 conflicts remain than with the corrupt features declared fixed; if the numbers are equal, the cost is no greater. If
 the houses stand along one straight side, far from the corrupt vertex, the cost is no greater than beside a fixed
-feature with the vertex at 1e7 or 1e8. With the vertex at 1e16 and beyond, where the feature could only move by
+feature with the vertex at 1e7 or 1e8. Beside features that the user fixed the cost does not grow with the distance of the
+vertex. With the vertex at 1e16 and beyond, where the feature could only move by
 multiples of the vertex's last place, it does not move."""
 import csv
 import json
@@ -17,6 +18,8 @@ BEYOND = ["1.4e8", "3e8", "6e8", "1e9", "2e9", "4e9"]  # beyond any on the Earth
 NEARER = ["1e10", "1e11", "5e11", "1e12", "2e12", "5e12", "1e13", "1e14", "1e15"]
 FARTHER = ["1e16", "1e17", "1e20", "1e30", "1e100", "1.7e308", "1.7976931348623157e308"]
 FIXED = ["--fixed-where", "kind = 'wild'"]
+# (seed, case, number of the kind) of layers in which houses beside a fixed feature cost more with its vertex at 1e9 than at 1e8
+AGAIN = [(4, 0, 3), (4, 1, 0), (2, 2, 1), (6, 0, 1), (9, 0, 3)]
 
 
 def polygon(points):
@@ -80,6 +83,17 @@ def on_one_side(r, houses):
     return rows
 
 
+def beside_fixed(seed, case, number):
+    """Rows of one kind, options, and a place of the corrupt vertex."""
+    r = random.Random(seed * 1000003 + case)
+    for kind in [lambda: all_about(r, 1), lambda: all_about(r, r.randint(2, 3)), lambda: on_one_side(r, 1), lambda: on_one_side(r, 5)][:number + 1]:
+        rows = kind()
+        r.shuffle(rows)
+        extra = ["--gap", r.choice(["0", "1", "3"])] + r.choice([[], ["--max-shift", "10"], ["--max-shift", "90"]])
+        value = [r.choice(values) for values in (BEYOND, NEARER, FARTHER)][0]
+    return rows, value, extra + FIXED
+
+
 def separate(rows, value, extra):
     with open("corrupt.csv", "w", encoding="ascii", newline="") as f:
         out = csv.writer(f)
@@ -125,6 +139,9 @@ def main():
             for value in r.choice(BEYOND), r.choice(NEARER), r.choice(FARTHER):
                 found = separate(rows, value, extra)
                 demand(f"case {case}, one side, {value}, {extra}", found, expected, value not in FARTHER or wild_stays())
+    for drawn in AGAIN:
+        rows, value, extra = beside_fixed(*drawn)
+        demand(f"{drawn}, fixed, {value}, {extra}", separate(rows, value, extra), separate(rows, "1e8", extra))
 
 
 main()

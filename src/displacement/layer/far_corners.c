@@ -28,8 +28,11 @@
 #define NEAR 0x1p27
 #define NEAR_TIMES 8
 /* A body has far corners if one of its corners is this many times as far from (0, 0) as its nearest point. With 2^20,
- * rows of houses beside a wall with a corner at 1e11 cost fifteen times what they cost with that corner at 1e9. */
+ * rows of houses beside a wall with a corner at 1e11 cost fifteen times what they cost with that corner at 1e9. A fixed
+ * body is not rounded, so there a smaller number suffices: with 2^10, rows beside a fixed wall with a corner at 1e9 or
+ * 4e9 cost up to 3.6 times what they cost with that corner at 1e8. */
 #define OUT_OF_PROPORTION 0x1p10
+#define OUT_OF_PROPORTION_FIXED 0x1p4
 /* Coordinates are scaled down to this exponent, so that the product of two is finite and its rounding error is not
  * subnormal. */
 #define LARGE_EXPONENT 500
@@ -142,7 +145,7 @@ void sunder_i_find_far_corners(const sunder_i_model *model, sunder_i_body *body)
     for (int edges = 0; edges <= 1 && max_norm(nearest) > NEAR; edges++)
         for (uint32_t m = 0; m < body->members; m++)
             if (model->present[member[m]]) look_for_origin(sunder_i_thing_shape(model, member[m]), edges, nearest);
-    if (!(farthest / OUT_OF_PROPORTION > max_norm(nearest))) return;
+    if (!(farthest / (body->fixed ? OUT_OF_PROPORTION_FIXED : OUT_OF_PROPORTION) > max_norm(nearest))) return;
     memcpy(body->origin, nearest, sizeof body->origin);
     body->far = true;
 }
