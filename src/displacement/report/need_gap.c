@@ -248,16 +248,22 @@ static sunder_status confirm(gap_search *g, double gap, sunder_i_verdict *verdic
     return status;
 }
 
-/* Sets *yes to whether a solution is found with this gap, or with one that is smaller by the share NEED_LESS: by proofs
- * or, if these have no answer, by a search. If a solution in real numbers does not hold in doubles, a search is not
- * made: one in 30 of such searches succeeded. With `careful`, if no solution with any gap is known yet, a search for
- * one without a gap comes first, and *yes is false if it fails; also if no gap leaves room for rounding, when all such
- * searches failed. */
+/* Sets *yes to whether a solution is found with this gap, or with one smaller by the share NEED_LESS: by proofs,
+ * which may take more effort the second time, or, if these have no answer, by a search. If a solution in real numbers
+ * does not hold in doubles, a search is not made: one in 30 of such searches succeeded. With `careful`, if no solution
+ * with any gap is known yet, a search for one without a gap comes first, and *yes is false if it fails; also if no gap
+ * leaves room for rounding, when all such searches failed. */
 static sunder_status settle_gap(gap_search *g, double gap, bool careful, bool *yes, sunder_error *err)
 {
+    sunder_i_foresight *f = g->inquiry->foresight;
     sunder_i_verdict verdict = SUNDER_I_UNKNOWN;
     *yes = false;
-    sunder_status status = g->inquiry->foresight ? confirm(g, gap, &verdict, yes, err) : SUNDER_OK;
+    sunder_status status = f ? confirm(g, gap, &verdict, yes, err) : SUNDER_OK;
+    if (!status && f && verdict == SUNDER_I_UNKNOWN) {
+        f->patient = true;
+        status = confirm(g, gap, &verdict, yes, err);
+        f->patient = false;
+    }
     if (status || *yes || verdict == SUNDER_I_INFEASIBLE) return status;
     if (g->cramped && isnan(g->conflict->need_gap)) {
         g->high = 0;
@@ -269,7 +275,7 @@ static sunder_status settle_gap(gap_search *g, double gap, bool careful, bool *y
         if (status || !any) return status;
     }
     if (verdict == SUNDER_I_UNKNOWN || (careful && gap == 0))
-        return try_gap(g, gap * (1 - NEED_LESS), !g->inquiry->foresight, yes, err);
+        return try_gap(g, gap * (1 - NEED_LESS), !f, yes, err);
     g->high = sunder_i_min(g->high, gap);
     return SUNDER_OK;
 }

@@ -382,7 +382,7 @@ sunder_status sunder_i_foresee(sunder_i_foresight *foresight, const sunder_i_sup
                                   .planes = &f->planes,
                                   .precedents = &f->precedents,
                                   .in_plane = mode == SUNDER_I_FORESEE_IN_PLANE,
-                                  .effort = NEED_PROOF_EFFORT,
+                                  .effort = NEED_PROOF_EFFORT * (f->patient ? NEED_PROOF_PATIENT : 1),
                                   .seeks = room,
                                   .near = room ? f->move : f->known ? f->best : NULL,
                                   .held_margin = room ? NEED_ROOM * f->questions->options->gap : 0,

@@ -83,6 +83,7 @@ typedef struct sunder_i_foresight {
     double *move; /* [2 * bodies] the moves of the last solution in real numbers */
     double *best; /* [2 * bodies] the moves of the last solution that holds in doubles */
     bool known;   /* there is one */
+    bool patient; /* NEED_PROOF_PATIENT times the effort is allowed */
     double *next; /* [2 * bodies] scratch */
     double *at;   /* [2 * features] scratch, by features of the small layer */
     sunder_i_planes planes;

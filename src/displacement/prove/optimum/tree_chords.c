@@ -111,7 +111,7 @@ static sunder_i_tree_pair *find_pair(passing *g, const spoke *s, const spoke *r)
 /* Adds chords across two spokes. Returns true if they are new. */
 static bool add_chords(passing *g, const spoke *s, const spoke *r)
 {
-    static const double share[] = {CHORD, WIDE_CHORD};
+    const double share[] = {CHORD, WIDE_CHORD};
     sunder_i_tree *t = g->tree;
     const sunder_i_model *model = t->task.model;
     const double *const end[2] = {s->end, r->end}, *const other[2] = {s->other, r->other};
