@@ -24,14 +24,9 @@
 /* The bisections of an interval, after which its ends are neighbouring doubles, or nearly. */
 enum { BISECTIONS = 60 };
 
-typedef struct lacking {
-    uint32_t i, j;        /* the bodies; the first may move; a barrier has that of its first part */
-    double missing, home; /* at the present place; at home, rounded down */
-} lacking;
-
 static int by_bodies(const void *a, const void *b)
 {
-    const lacking *p = a, *q = b;
+    const sunder_i_lacking *p = a, *q = b;
     return p->i != q->i ? (p->i < q->i ? -1 : 1) : p->j < q->j ? -1 : p->j > q->j;
 }
 
@@ -60,18 +55,18 @@ static sunder_status missing_at_home(const sunder_i_model *model, const sunder_c
 }
 
 /* Fills *out for one conflict. */
-static sunder_status measure_conflict(const sunder_i_model *model, const sunder_conflict *c, lacking *out,
+static sunder_status measure_conflict(const sunder_i_model *model, const sunder_conflict *c, sunder_i_lacking *out,
                                       sunder_error *err)
 {
     const uint32_t i = model->body_of[c->a], j = model->body_of[c->b];
     const bool swap = !sunder_i_may_move(&model->body[i]);
     const double slack = sunder_i_full_above(model, (uint32_t)c->a, (uint32_t)c->b) - c->required;
-    *out = (lacking){swap ? j : i, swap ? i : j, c->missing + slack, 0};
+    *out = (sunder_i_lacking){swap ? j : i, swap ? i : j, c->missing + slack, 0};
     return missing_at_home(model, c, &out->home, err);
 }
 
 /* Adds a pair, given by its worst conflicts, to what its first body pays. */
-static void add_pair(const sunder_i_model *model, const lacking *pair, sunder_i_paying *paying)
+static void add_pair(const sunder_i_model *model, const sunder_i_lacking *pair, sunder_i_paying *paying)
 {
     const sunder_i_body *p = &model->body[pair->i], *q = &model->body[pair->j];
     const sunder_i_price price = sunder_i_price_of(model, p, q);
@@ -86,7 +81,7 @@ static void add_pair(const sunder_i_model *model, const lacking *pair, sunder_i_
 }
 
 /* The cost of the first body of n pairs with fixed bodies if it moves by r, and the slope there. */
-static double cost_after(const sunder_i_model *model, const lacking *pair, size_t n, double r, double *slope)
+static double cost_after(const sunder_i_model *model, const sunder_i_lacking *pair, size_t n, double r, double *slope)
 {
     const sunder_i_body *body = &model->body[pair->i];
     double cost = body->weight * r * r;
@@ -102,7 +97,7 @@ static double cost_after(const sunder_i_model *model, const lacking *pair, size_
 }
 
 /* A lower bound of that for any r within the body's limit. */
-static double least_after(const sunder_i_model *model, const lacking *pair, size_t n)
+static double least_after(const sunder_i_model *model, const sunder_i_lacking *pair, size_t n)
 {
     double low = 0, farthest = 0, slope;
     for (size_t k = 0; k < n; k++) farthest = sunder_i_max(farthest, pair[k].home);
@@ -117,7 +112,7 @@ static double least_after(const sunder_i_model *model, const lacking *pair, size
 }
 
 /* Sets *own to the greatest bound that is known of what the body costs, with its n pairs. */
-static bool bound_body(const sunder_i_model *model, const lacking *pair, size_t n, double *own)
+static bool bound_body(const sunder_i_model *model, const sunder_i_lacking *pair, size_t n, double *own)
 {
     const sunder_i_body *body = &model->body[pair->i];
     const double *t = model->move + 2 * (size_t)pair->i;
@@ -147,7 +142,7 @@ static bool is_priced(const sunder_i_model *model, const sunder_conflict *c)
 }
 
 /* Merges the conflicts of each pair, sorted by pairs, into one. Returns the number of pairs. */
-static size_t merge_conflicts(lacking *list, size_t n)
+static size_t merge_conflicts(sunder_i_lacking *list, size_t n)
 {
     size_t out = 0;
     for (size_t k = 0; k < n; k++) {
@@ -158,7 +153,7 @@ static size_t merge_conflicts(lacking *list, size_t n)
     return out;
 }
 
-static bool add_pairs(sunder_report *report, const sunder_i_model *model, const lacking *list, size_t n)
+static bool add_pairs(sunder_report *report, const sunder_i_model *model, const sunder_i_lacking *list, size_t n)
 {
     bool ok = true;
     for (size_t k = 0, next; k < n && ok; k = next) {
@@ -188,7 +183,7 @@ static void add_up(sunder_report *report, size_t bodies)
 }
 
 /* Adds the pairs of neighbours in rows that lack some of the rule of rows with the full gap. */
-static void add_rows(const sunder_i_model *model, lacking *list, size_t *n)
+static void add_rows(const sunder_i_model *model, sunder_i_lacking *list, size_t *n)
 {
     for (uint32_t i = 0; i < model->bodies && model->row_sides && sunder_i_has_slack(model); i++) {
         const sunder_i_extras *has = model->body[i].has;
@@ -198,7 +193,7 @@ static void add_rows(const sunder_i_model *model, lacking *list, size_t *n)
             const double missing = side->full - ((s[0] - t[0]) * side->along[0] + (s[1] - t[1]) * side->along[1]);
             const bool swap = !sunder_i_may_move(&model->body[i]);
             if (side->other < i || !(missing > 0)) continue;
-            list[(*n)++] = (lacking){swap ? side->other : i, swap ? i : side->other, missing, side->full};
+            list[(*n)++] = (sunder_i_lacking){swap ? side->other : i, swap ? i : side->other, missing, side->full};
         }
     }
 }
@@ -207,7 +202,7 @@ sunder_status sunder_i_report_eased(sunder_report *report, const sunder_i_model 
 {
     if (!(model->rules.ease > 0)) return SUNDER_OK;
     const size_t conflicts = report->conflicts, pairs = conflicts + report->summary.tight;
-    lacking *list = sunder_i_alloc(pairs + model->row_sides, sizeof *list);
+    sunder_i_lacking *list = sunder_i_alloc(pairs + model->row_sides, sizeof *list);
     report->paying = sunder_i_calloc(model->bodies, sizeof *report->paying);
     sunder_status status = list && report->paying ? SUNDER_OK : sunder_i_failure_cause(err);
     size_t n = 0;
@@ -217,8 +212,9 @@ sunder_status sunder_i_report_eased(sunder_report *report, const sunder_i_model 
     }
     if (!status) add_rows(model, list, &n);
     if (!status && n) qsort(list, n, sizeof *list, by_bodies);
-    if (!status && !add_pairs(report, model, list, merge_conflicts(list, n))) status = sunder_i_failure_cause(err);
+    report->lacking = list;
+    report->eased = status ? 0 : merge_conflicts(list, n);
+    if (!status && !add_pairs(report, model, list, report->eased)) status = sunder_i_failure_cause(err);
     if (!status) add_up(report, model->bodies);
-    sunder_i_free(list);
     return status;
 }

@@ -8,6 +8,7 @@
  * and if no movable body of it was counted with another group. */
 #include "displacement/layer/resolution.h"
 #include "displacement/report/report.h"
+#include "displacement/solve/clusters/cluster_stages.h"
 
 #include "base/extremes.h"
 
@@ -89,6 +90,8 @@ static sunder_status count_groups(sunder_report *report, sunder_i_solver *s, sun
     uint32_t *owner = sunder_i_alloc(s->model.bodies, sizeof *owner);
     bool *listed = sunder_i_calloc(s->model.bodies, sizeof *listed);
     const bool ok = owner && listed;
+    sunder_status status = ok ? SUNDER_OK : sunder_i_failure_cause(err);
+    if (ok && report->eased) status = sunder_i_solver_list_waivers(s, err);
     for (size_t b = 0; b < s->model.bodies && ok; b++) owner[b] = SUNDER_I_NOBODY;
     for (size_t k = 0; k < s->groups.n && ok; k++)
         if (!claim_bodies(&s->model, &s->groups.group[k], owner)) s->groups.group[k].bound = 0;
@@ -98,9 +101,11 @@ static sunder_status count_groups(sunder_report *report, sunder_i_solver *s, sun
         sunder_i_group *g = &s->groups.group[k];
         g->cost = cost_of(&s->model, g, report->paying);
         if (report->paying) bound_prices(g, report->paying);
-        report->summary.clusters_optimal += s->model.rules.effort > 0 && sunder_i_group_is_optimal(g);
     }
-    return ok ? SUNDER_OK : sunder_i_failure_cause(err);
+    if (!status && report->eased && s->model.rules.effort > 0) status = sunder_i_report_eased_groups(report, s, err);
+    for (size_t k = 0; k < s->groups.n && !status; k++)
+        report->summary.clusters_optimal += s->model.rules.effort > 0 && sunder_i_group_is_optimal(&s->groups.group[k]);
+    return status;
 }
 
 /* Moves the trees on which the bound is based, those of groups and those of pairs, to the report, which owns them from

@@ -112,7 +112,8 @@ void sunder_report_free(sunder_report *report)
     sunder_row_list_free(&report->row_list);
     sunder_i_free_all(report->bound_tree, report->push, report->row_pair, report->row_reach, report->world,
                       report->world_of, report->stands, report->inside, report->inexact, report->footprint,
-                      report->world_bound, report->thin, report->proved, report->by_pairs, report->paying, report);
+                      report->world_bound, report->thin, report->proved, report->by_pairs, report->lacking,
+                      report->paying, report);
 }
 
 void sunder_i_count(sunder_conflict_counts *counts, const sunder_conflict *conflict)

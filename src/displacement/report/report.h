@@ -24,6 +24,12 @@ typedef struct sunder_i_paying {
     double own;         /* a lower bound of these prices together with the cost of the body's move */
 } sunder_i_paying;
 
+/* What a pair of bodies lacks. The first may move; a barrier has the body of its first part. */
+typedef struct sunder_i_lacking {
+    uint32_t i, j;
+    double missing, home; /* at the present place; at home, rounded down */
+} sunder_i_lacking;
+
 struct sunder_report {
     size_t n;
     double *move;                  /* [2 * n] the moves, x and y alternating */
@@ -63,6 +69,8 @@ struct sunder_report {
                                 * `thin` */
     double *proved, *by_pairs; /* [bodies] what is proved of each part, at the part's root, in all and by pairs;
                                 * by_pairs is NULL if all is by pairs */
+    sunder_i_lacking *lacking; /* [eased] the eased pairs, sorted by i, then by j */
+    size_t eased;
     sunder_i_paying *paying; /* [bodies] if pairs are eased; else NULL */
     sunder_layer_summary summary;
 };
@@ -118,6 +126,11 @@ sunder_status sunder_i_report_add_tight(sunder_report *report, const sunder_i_mo
 
 /* If pairs are eased: computes what the conflicts lack, the prices of that, and the least prices. */
 sunder_status sunder_i_report_eased(sunder_report *report, const sunder_i_model *model, sunder_error *err);
+
+/* ---- eased_groups.c ---------------------------------------------------------------------------------------------- */
+
+/* Raises the bounds of the groups with eased pairs by trees. The costs of the groups and the waivers are known. */
+sunder_status sunder_i_report_eased_groups(const sunder_report *report, sunder_i_solver *solver, sunder_error *err);
 
 /* ---- body_bound.c ------------------------------------------------------------------------------------------------ */
 

@@ -6,7 +6,7 @@
 
 /* SUNDER_I_REPORT_TUNING_VERSION is the version of the values below. It is raised with each change of a value, so that
  * a record can name the values by their version (tests/house/TUNING). */
-#define SUNDER_I_REPORT_TUNING_VERSION 5
+#define SUNDER_I_REPORT_TUNING_VERSION 6
 
 /* ---- Proofs that there is no room (no_room.c) -------------------------------------------------------------------- */
 
@@ -51,6 +51,22 @@
 #define CROWD_REDUCING 20000000u
 #define CROWD_REDUCING_EACH 30000u
 #define CROWD_EFFORT 30000u
+
+/* ---- Bounds of eased groups (eased_groups.c) --------------------------------------------------------------------- */
+
+/* A group of at most MOST_EASED movable bodies gets a tree with EASED_STEPS steps for each, at effort 1; one with fewer
+ * than FEWEST_EASED counts as one with that many. The tree is begun again with further polygons at most MOST_JOINED
+ * times. A bound is near enough if only the share EASED_NEAR of the cost is missing. */
+#define MOST_EASED 24
+#define EASED_STEPS 1e7
+#define FEWEST_EASED 16.
+#define MOST_JOINED 32
+#define EASED_NEAR 0x1p-21
+/* Prices are reduced by the share PRICE_ROOM, more than the rounding errors of their computation. A pair may lack more
+ * than at the start by the share MOST_ROOM: at a few places that fit without any room no program would have a
+ * solution in doubles. */
+#define PRICE_ROOM 0x1p-48
+#define MOST_ROOM 0x1p-14
 
 /* ---- A pair by itself (pair_reasons.c) --------------------------------------------------------------------------- */
 

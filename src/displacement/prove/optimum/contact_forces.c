@@ -114,7 +114,7 @@ bool sunder_i_contact_forces_find(sunder_i_contact_forces *contacts, const sunde
     memset(contacts, 0, sizeof *contacts);
     contacts->model = model;
     contacts->waived = waived;
-    if (!sunder_i_dual_init(&contacts->program, group->n) || !find_contacts(contacts, group)) return false;
+    if (!sunder_i_dual_init(&contacts->program, group->n, 0) || !find_contacts(contacts, group)) return false;
     contacts->program.weight = weight;
     contacts->program.mass = mass;
     contacts->program.anchor = anchor;

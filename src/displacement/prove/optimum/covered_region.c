@@ -6,6 +6,10 @@
  * there. If that line hardly cuts the region, the cut is across its longest extent. If the middle of a part is in no
  * piece the answer is no.
  *
+ * Where a slope S is given, a priced piece contains a corner v if v lacks more than S(v): its distance from K, which is
+ * negative inside, and S(v) add up to less than the radius. Distance and S are convex functions, so this holds for the
+ * whole region if it holds at its corners.
+ *
  * A region is known up to its blur, a piece's polygon up to its own error (`vague`), and a distance up to a grain. So
  * corners have to be inside by the sum of the three. Then the disc of radius blur around each corner is in the true
  * piece (forbidden.c), and so is everything between them.
@@ -23,6 +27,8 @@
 
 typedef struct covering {
     const sunder_i_forbidden *forbidden;
+    const sunder_i_slope *slope; /* for priced pieces; NULL if there are none */
+    double steep;                /* 1 and the slope's greatest derivative, or more; 1 without a slope */
     bool *used;
     uint64_t steps, most;
     const sunder_i_forbidden_piece *last; /* the last piece that contained a region: it may contain the next one */
@@ -30,8 +36,17 @@ typedef struct covering {
     sunder_i_regions *left;               /* NULL, or receives the uncovered regions */
 } covering;
 
+/* Does u lack more than the slope there, by a priced piece? */
+static bool lacks_more(covering *c, const sunder_i_forbidden_piece *p, const double u[2], double blur)
+{
+    c->steps += 1 + p->edges;
+    return sunder_i_forbidden_distance(c->forbidden, p, u) + sunder_i_slope_at(c->slope, u) <
+           p->radius - p->vague - (blur + c->forbidden->grain) * c->steep;
+}
+
 static bool is_in(covering *c, const sunder_i_forbidden_piece *p, const double u[2], double blur)
 {
+    if (p->priced) return lacks_more(c, p, u, blur);
     c->steps++;
     if (u[0] <= p->box[0] || u[0] >= p->box[2] || u[1] <= p->box[1] || u[1] >= p->box[3]) return false;
     c->steps += p->edges;
@@ -79,6 +94,15 @@ static double distance_outside(covering *c, const sunder_i_forbidden_piece *p, c
 {
     double most = -INFINITY;
     c->steps += p->edges;
+    if (p->priced) {
+        most = sunder_i_forbidden_normal(c->forbidden, p, u, n) + sunder_i_slope_at(c->slope, u) - p->radius;
+        for (int k = 0; k < 2; k++) n[k] -= c->slope->n[k] / c->slope->share;
+        const double length = hypot(n[0], n[1]);
+        if (!(length > 0)) return 0;
+        for (int k = 0; k < 2; k++) n[k] /= length;
+        *d = n[0] * u[0] + n[1] * u[1] - most / length;
+        return most / length;
+    }
     if (p->radius > 0) {
         most = sunder_i_forbidden_normal(c->forbidden, p, u, n) - p->radius;
         *d = n[0] * u[0] + n[1] * u[1] - most;
@@ -111,7 +135,7 @@ static bool find_leaving(covering *c, const sunder_i_forbidden_piece *p, const s
     }
     const double room = farthest > 0 ? LEAVING_ROOM * (*d - (n[0] * middle[0] + n[1] * middle[1])) : 0;
     *d -= room;
-    return room > 4 * (r->blur + p->vague + c->forbidden->grain);
+    return room > 4 * (r->blur + p->vague + c->forbidden->grain) * c->steep;
 }
 
 static bool is_covered(covering *c, const sunder_i_region *r, int depth);
@@ -172,8 +196,20 @@ static bool is_covered(covering *c, const sunder_i_region *r, int depth)
 bool sunder_i_region_is_covered(const sunder_i_region *region, const sunder_i_forbidden *forbidden, bool *used,
                                 double gap[2], uint64_t *steps)
 {
-    covering c = {.forbidden = forbidden, .used = used, .most = COVER_STEPS, .gap = gap};
+    covering c = {.forbidden = forbidden, .steep = 1, .used = used, .most = COVER_STEPS, .gap = gap};
     if (gap) gap[0] = gap[1] = NAN;
+    const bool covered = is_covered(&c, region, 0);
+    *steps += c.steps;
+    return covered;
+}
+
+bool sunder_i_region_lacks(const sunder_i_region *region, const sunder_i_forbidden *forbidden,
+                           const sunder_i_slope *slope, bool *used, double gap[2], uint64_t *steps)
+{
+    const double steep = 2 * (1 + (fabs(slope->n[0]) + fabs(slope->n[1])) / slope->share);
+    covering c = {
+        .forbidden = forbidden, .slope = slope, .steep = steep, .used = used, .most = COVER_STEPS, .gap = gap};
+    gap[0] = gap[1] = NAN;
     const bool covered = is_covered(&c, region, 0);
     *steps += c.steps;
     return covered;
@@ -182,7 +218,7 @@ bool sunder_i_region_is_covered(const sunder_i_region *region, const sunder_i_fo
 bool sunder_i_region_cover(const sunder_i_region *region, const sunder_i_forbidden *forbidden, sunder_i_regions *left,
                            uint64_t *steps)
 {
-    covering c = {.forbidden = forbidden, .most = COVER_STEPS, .left = left};
+    covering c = {.forbidden = forbidden, .steep = 1, .most = COVER_STEPS, .left = left};
     const bool ok = is_covered(&c, region, 0);
     *steps += c.steps;
     return ok;

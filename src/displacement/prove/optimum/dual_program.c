@@ -15,8 +15,15 @@
  * forces along that combination prove any value, and they are made so large that evaluation proves `enough`. If that
  * fails the cut is ignored.
  *
- * The products of the active cuts are stored as a Cholesky factor, which grows by a row, and loses a row by
- * rotations. */
+ * The products of the active cuts are stored as a Cholesky factor, which grows by a row, and loses a row by rotations.
+ *
+ * Prices. What an eased pair lacks, s >= 0, is one more unknown, which costs linear s + square s^2. If L is the sum of
+ * the forces on cuts that contain s, each times its share, that cost and -L s add up to at least
+ *
+ *     -max(0, L - linear)^2 / (4 square),
+ *
+ * which becomes a term of D. For the active set method s is like a body whose weight is `square`; the cut s >= 0
+ * belongs to its cuts, but not to L. */
 #include "displacement/prove/optimum/dual_program.h"
 
 #include "base/extremes.h"
@@ -31,18 +38,22 @@
 #define NO_FACTOR 1e-9
 #define FEWEST_ROWS 32
 
-bool sunder_i_dual_init(sunder_i_dual_program *program, size_t bodies)
+bool sunder_i_dual_init(sunder_i_dual_program *program, size_t bodies, size_t prices)
 {
     memset(program, 0, sizeof *program);
     program->bodies = bodies;
+    program->prices = prices;
     program->t = sunder_i_alloc(2 * bodies, sizeof *program->t);
     program->net = sunder_i_alloc(3 * bodies, sizeof *program->net);
-    return program->t && program->net;
+    program->lacks = sunder_i_alloc(prices, sizeof *program->lacks);
+    program->push = sunder_i_alloc(2 * prices, sizeof *program->push);
+    return program->t && program->net && program->lacks && program->push;
 }
 
 void sunder_i_dual_free(sunder_i_dual_program *program)
 {
-    sunder_i_free_all(program->acting, program->factor, program->t, program->net, program->scratch);
+    sunder_i_free_all(program->acting, program->factor, program->t, program->net, program->lacks, program->push,
+                      program->scratch);
     memset(program, 0, sizeof *program);
 }
 
@@ -76,10 +87,15 @@ static double product_of_cuts(const sunder_i_dual_program *p, const sunder_i_mov
     if (a->j == b->j && a->j != SUNDER_I_GROUND) shared += p->mass[a->j];
     if (a->i == b->j && a->i != SUNDER_I_GROUND) shared -= p->mass[a->i];
     if (a->j == b->i && a->j != SUNDER_I_GROUND) shared -= p->mass[a->j];
-    return shared != 0 ? shared * (a->n[0] * b->n[0] + a->n[1] * b->n[1]) : 0;
+    const double of_moves = shared != 0 ? shared * (a->n[0] * b->n[0] + a->n[1] * b->n[1]) : 0;
+    if (a->share == 0 || b->share == 0 || a->eased != b->eased) return of_moves;
+    return of_moves + a->share * b->share / (2 * p->price[a->eased].square);
 }
 
-static double at_anchor(const sunder_i_dual_program *p, const sunder_i_move_cut *c)
+/* What a pair lacks costs square (s - a)^2 less a constant, with this a. */
+static double anchor_of_price(const sunder_i_price *price) { return -price->linear / (2 * price->square); }
+
+static double moves_at_anchor(const sunder_i_dual_program *p, const sunder_i_move_cut *c)
 {
     double v = 0;
     if (c->j != SUNDER_I_GROUND) v += c->n[0] * p->anchor[2 * c->j] + c->n[1] * p->anchor[2 * c->j + 1];
@@ -87,9 +103,15 @@ static double at_anchor(const sunder_i_dual_program *p, const sunder_i_move_cut 
     return v;
 }
 
+static double at_anchor(const sunder_i_dual_program *p, const sunder_i_move_cut *c)
+{
+    const double v = moves_at_anchor(p, c);
+    return c->share != 0 ? v + c->share * anchor_of_price(&p->price[c->eased]) : v;
+}
+
 double sunder_i_dual_missing(const sunder_i_dual_program *program, const sunder_i_move_cut *cut)
 {
-    double v = cut->d;
+    double v = cut->share != 0 ? cut->d - cut->share * program->lacks[cut->eased] : cut->d;
     if (cut->j != SUNDER_I_GROUND) v -= cut->n[0] * program->t[2 * cut->j] + cut->n[1] * program->t[2 * cut->j + 1];
     if (cut->i != SUNDER_I_GROUND) v += cut->n[0] * program->t[2 * cut->i] + cut->n[1] * program->t[2 * cut->i + 1];
     return v;
@@ -165,8 +187,11 @@ static void take_out(sunder_i_dual_program *p, size_t at)
 void sunder_i_dual_place(sunder_i_dual_program *program)
 {
     memcpy(program->t, program->anchor, 2 * program->bodies * sizeof *program->t);
+    for (size_t k = 0; k < program->prices; k++) program->lacks[k] = anchor_of_price(&program->price[k]);
     for (size_t k = 0; k < program->acting_n; k++) {
         const sunder_i_move_cut *c = &program->cut[program->acting[k].cut];
+        if (c->share != 0)
+            program->lacks[c->eased] += program->acting[k].force * c->share / (2 * program->price[c->eased].square);
         for (int e = 0; e < 2; e++) {
             const uint32_t b = e ? c->j : c->i;
             if (b == SUNDER_I_GROUND) continue;
@@ -271,6 +296,8 @@ sunder_i_dual_outcome sunder_i_dual_add(sunder_i_dual_program *program, uint32_t
         sunder_i_dual_place(program);
         /* `missing` is the violation at the t without the new force, reduced by the effect of that force. */
         double missing = c->d - at_anchor(program, c);
+        if (c->share != 0)
+            missing -= c->share * (program->lacks[c->eased] - anchor_of_price(&program->price[c->eased]));
         for (int e = 0; e < 2; e++) {
             const uint32_t b = e ? c->j : c->i;
             if (b == SUNDER_I_GROUND) continue;
@@ -311,16 +338,22 @@ sunder_i_dual_outcome sunder_i_dual_add(sunder_i_dual_program *program, uint32_t
  * magnitudes. The sum of N terms adds N e of the sum of magnitudes: (N + 9) e of it suffices, and summing the
  * magnitudes adds as much again. A component of g has an error of (N + 1) e of the sum of |f n|, which is net[3 b + 2]
  * below, and |g|^2 / (4 w) takes four roundings. Four times all of this is used, so that these sums may be rounded
- * themselves; and 2^-900 for underflow. */
+ * themselves; and 2^-900 for underflow. So it is for prices, with the sum of |f share|. */
 double sunder_i_dual_value(sunder_i_dual_program *program)
 {
     const double unit = 4 * ((double)(program->acting_n + program->bodies) + 16) * 0x1p-53;
     double value = 0, magnitude = 0, taken = 0, *net = program->net;
     memset(net, 0, 3 * program->bodies * sizeof *net);
+    for (size_t k = 0; k < 2 * program->prices; k++) program->push[k] = 0;
     for (size_t k = 0; k < program->acting_n; k++) {
         const sunder_i_move_cut *c = &program->cut[program->acting[k].cut];
         const double f = program->acting[k].force;
         double part = fabs(c->d);
+        if (sunder_i_is_lack_above_0(c)) continue;
+        if (c->share != 0) {
+            program->push[2 * c->eased] += f * c->share;
+            program->push[2 * c->eased + 1] += f * fabs(c->share);
+        }
         for (int e = 0; e < 2; e++) {
             const uint32_t b = e ? c->j : c->i;
             if (b == SUNDER_I_GROUND) continue;
@@ -329,7 +362,7 @@ double sunder_i_dual_value(sunder_i_dual_program *program)
             net[3 * b + 1] += e ? f * c->n[1] : -f * c->n[1];
             net[3 * b + 2] += f * (fabs(c->n[0]) + fabs(c->n[1]));
         }
-        value += f * (c->d - at_anchor(program, c));
+        value += f * (c->d - moves_at_anchor(program, c));
         magnitude += f * part;
         taken += f * f * c->give / 2;
     }
@@ -337,6 +370,10 @@ double sunder_i_dual_value(sunder_i_dual_program *program)
         if (!(program->mass[b] > 0) || !(net[3 * b + 2] > 0)) continue;
         const double x = fabs(net[3 * b]) + unit * net[3 * b + 2], y = fabs(net[3 * b + 1]) + unit * net[3 * b + 2];
         taken += (x * x + y * y) / (4 * program->weight[b]);
+    }
+    for (size_t k = 0; k < program->prices; k++) {
+        const double above = program->push[2 * k] + unit * program->push[2 * k + 1] - program->price[k].linear;
+        if (above > 0) taken += above * above / (4 * program->price[k].square);
     }
     return value - taken - unit * (magnitude + fabs(value) + taken) - 0x1p-900;
 }

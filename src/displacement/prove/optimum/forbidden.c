@@ -50,6 +50,7 @@ typedef struct listing {
     double window[4]; /* the relative moves u that matter */
     size_t most;      /* the greatest number of pieces */
     bool diagonal_covers, no_paths;
+    bool priced; /* priced pieces are listed, instead of others */
     sunder_i_scratch scratch;
     double *drawn, *hull; /* scratch for shadows */
     size_t drawn_capacity, hull_capacity;
@@ -202,13 +203,25 @@ static bool add_piece(listing *l, const sunder_i_body_piece *a, const sunder_i_b
     size_t n;
     if (!begin_piece(l, a, b, &piece, &n)) return false;
     piece.radius = sunder_i_owed_below(l->model, a->feature, b->feature);
-    if (waiver) {
+    piece.priced = l->priced;
+    if (waiver && !l->priced) {
         piece.radius = sunder_i_min(piece.radius, sunder_i_max(0, sunder_i_waiver_clearance(waiver)));
         piece.clearance = sunder_i_min(piece.radius, sunder_i_waiver_clearance(waiver));
     }
     if (piece.clearance < 0) return add_eroded(l, &piece, l->scratch.xy, n, -piece.clearance);
     keep_piece(l->out, &piece, l->scratch.xy, n);
     return true;
+}
+
+/* Has the pair of pieces a price? Two pieces without area have none: they are not deep in each
+ * other where they cross. */
+static bool has_price(const listing *l, const sunder_i_body_piece *a, const sunder_i_body_piece *b,
+                      const sunder_i_waiver *waiver)
+{
+    const uint32_t f = a->feature, g = b->feature;
+    return waiver && (a->corners > 2 || b->corners > 2) &&
+           (sunder_i_is_barrier(l->model, f) || sunder_i_is_barrier(l->model, g) ||
+            !sunder_i_is_included(l->model, f < g ? f : g, f < g ? g : f));
 }
 
 static bool is_full(const listing *l) { return l->out->pieces > l->most; }
@@ -226,6 +239,7 @@ static bool add_pieces(listing *l)
             const sunder_i_body_piece *b = &l->of_q->piece[m];
             const sunder_i_waiver *waiver;
             if (!sunder_i_box_meet(box, b->box) || !owe_distance(l, a->feature, b->feature, &waiver)) continue;
+            if (l->priced && !has_price(l, a, b, waiver)) continue;
             if (!add_piece(l, a, b, waiver)) return false;
         }
     }
@@ -261,6 +275,26 @@ static bool add_covers(listing *l, const sunder_i_body *of, const sunder_i_body 
             if (flat->corners > 2 || !sunder_i_box_meet(box, flat->box)) continue;
             if (!owe_distance(l, diagonal_cover->feature, flat->feature, &waiver)) continue;
             if (!add_piece(l, swapped ? flat : diagonal_cover, swapped ? diagonal_cover : flat, waiver)) return false;
+        }
+    }
+    return true;
+}
+
+/* Adds the priced pieces made of the covers of diagonals of `of` and all pieces of `other`: pieces of a feature that
+ * only touch leave a gap without width. swapped: `of` is the second body of the pair. Returns false if memory is out.
+ */
+static bool add_priced_covers(listing *l, const sunder_i_body *of, const sunder_i_body *other, bool swapped)
+{
+    const sunder_i_body_pieces *pieces = swapped ? l->of_p : l->of_q;
+    const uint32_t end = of->has->diagonal_cover + of->has->diagonal_covers;
+    for (uint32_t k = of->has->diagonal_cover; k < end && !is_full(l); k++) {
+        const sunder_i_body_piece *cover = &l->model->diagonal_cover[k];
+        for (uint32_t m = 0; m < other->pieces; m++) {
+            const sunder_i_body_piece *piece = &pieces->piece[m];
+            const sunder_i_waiver *waiver;
+            if (!owe_distance(l, cover->feature, piece->feature, &waiver) || !has_price(l, cover, piece, waiver))
+                continue;
+            if (!add_piece(l, swapped ? piece : cover, swapped ? cover : piece, waiver)) return false;
         }
     }
     return true;
@@ -409,6 +443,11 @@ static bool add_all(listing *l)
     return l->model->rules.jumps || (add_shadows_from(l, l->p, l->q, false) && add_shadows_from(l, l->q, l->p, true));
 }
 
+static bool add_all_priced(listing *l)
+{
+    return add_pieces(l) && add_priced_covers(l, l->p, l->q, false) && add_priced_covers(l, l->q, l->p, true);
+}
+
 static void set_bodies(listing *l, uint32_t p, uint32_t q)
 {
     l->p = &l->model->body[p];
@@ -416,15 +455,20 @@ static void set_bodies(listing *l, uint32_t p, uint32_t q)
     for (size_t c = 0; c < 2; c++) l->offset[c] = l->q->origin[c] - l->p->origin[c];
 }
 
-/* Sets up the listing. Returns false if memory is out. */
-static bool begin_listing(listing *l, uint32_t p, uint32_t q)
+/* Sets up the listing for two bodies. Returns false if memory is out. */
+static bool begin_pair(listing *l, uint32_t p, uint32_t q)
 {
-    *l->out = (sunder_i_forbidden){0};
     set_bodies(l, p, q);
     for (size_t c = 0; c < 4; c++) l->window[c] = c < 2 ? -l->reach : l->reach;
     l->of_p = sunder_i_pieces_of(l->model, l->p);
     l->of_q = sunder_i_pieces_of(l->model, l->q);
     return l->of_p && l->of_q;
+}
+
+static bool begin_listing(listing *l, uint32_t p, uint32_t q)
+{
+    *l->out = (sunder_i_forbidden){0};
+    return begin_pair(l, p, q);
 }
 
 static void end_listing(listing *l, double reach)
@@ -458,6 +502,45 @@ bool sunder_i_forbidden_init(sunder_i_forbidden *forbidden, const sunder_i_model
 {
     listing l = {.out = forbidden, .model = model, .waived = waived, .reach = reach, .most = MOST_PIECES};
     return list_within(&l, p, q);
+}
+
+bool sunder_i_forbidden_priced(sunder_i_forbidden *forbidden, const sunder_i_model *model,
+                               const sunder_i_waived *waived, uint32_t p, const uint32_t *q, size_t n, double reach,
+                               bool prices)
+{
+    listing l = {.out = forbidden, .model = model, .waived = waived, .reach = reach, .most = MOST_PIECES};
+    bool ok = true;
+    *forbidden = (sunder_i_forbidden){0};
+    for (int priced = prices; priced >= 0; priced--)
+        for (size_t k = 0; k < n && ok; k++) {
+            l.priced = priced;
+            ok = begin_pair(&l, p, q[k]) && (priced ? add_all_priced(&l) : add_all(&l));
+        }
+    end_listing(&l, reach);
+    return ok;
+}
+
+bool sunder_i_forbidden_add_joined(sunder_i_forbidden *forbidden, const sunder_i_model *model,
+                                   const sunder_i_joined *joined)
+{
+    sunder_i_forbidden_piece piece = {.edge = (uint32_t)forbidden->edges, .priced = true, .joined = true};
+    for (size_t k = 0; k < forbidden->pieces && !piece.a; k++) {
+        const sunder_i_forbidden_piece *p = &forbidden->piece[k];
+        if (!p->priced || sunder_i_whole_of(model, p->a->feature) != joined->f ||
+            sunder_i_whole_of(model, p->b->feature) != joined->g)
+            continue;
+        piece.a = p->a;
+        piece.b = p->b;
+        piece.radius = p->radius;
+    }
+    piece.clearance = NAN;
+    piece.vague = joined->blur + forbidden->grain;
+    if (!piece.a) return true;
+    if (!sunder_i_reserve(&forbidden->piece, &forbidden->piece_capacity, forbidden->pieces + 1, sizeof piece) ||
+        !set_edges(forbidden, &piece, joined->corner, joined->corners))
+        return false;
+    keep_piece(forbidden, &piece, joined->corner, joined->corners);
+    return true;
 }
 
 bool sunder_i_forbidden_without_paths(sunder_i_forbidden *forbidden, const sunder_i_model *model,

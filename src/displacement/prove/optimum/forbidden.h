@@ -14,6 +14,9 @@ typedef struct sunder_i_forbidden_piece {
                                        * an anchor */
     bool shadow;                      /* true for a `row`, too */
     bool row;                         /* it is the half-plane of the rule of rows; a and b are any pieces of the two */
+    bool priced; /* it forbids nothing, but has a price: a move lacks at least the radius less its distance from K, or
+                  * plus its depth in K */
+    bool joined;      /* it is priced, and K lies in the union of those of other pieces of the same features */
     double clearance; /* NAN: the full distance is required; else the clearance to which the pair is held instead
                        * (layer/requirement.h) */
     uint32_t side[2];         /* if they differ: it is the shadow of a chord, and lies in these two pieces */
@@ -29,6 +32,15 @@ typedef struct sunder_i_chord_piece {
     double corner[4];
     struct sunder_i_chord_piece *next;
 } sunder_i_chord_piece;
+
+/* A convex polygon in the union of the sets K of the priced pieces of two things, f < g in the order of the pair; a
+ * barrier is named by its first part. */
+#define SUNDER_I_JOINED_CORNERS 32
+typedef struct sunder_i_joined {
+    uint32_t price; /* the eased pair */
+    uint32_t f, g, corners;
+    double corner[2 * SUNDER_I_JOINED_CORNERS], blur;
+} sunder_i_joined;
 
 typedef struct sunder_i_forbidden {
     sunder_i_forbidden_piece *piece;
@@ -73,6 +85,11 @@ const sunder_i_waiver *sunder_i_waiver_of(const sunder_i_model *model, const sun
  * gap, and pieces farther away are missing. Returns false if memory is out; the caller frees *forbidden in any case. */
 bool sunder_i_forbidden_init(sunder_i_forbidden *forbidden, const sunder_i_model *model, const sunder_i_waived *waived,
                              uint32_t p, uint32_t q, double reach);
+/* Lists the pieces of the forbidden sets of body p and n bodies q that do not move relative to each other; with
+ * `prices` also priced pieces of their pairs that are left in conflict. At most about MOST_PIECES pieces are listed. */
+bool sunder_i_forbidden_priced(sunder_i_forbidden *forbidden, const sunder_i_model *model,
+                               const sunder_i_waived *waived, uint32_t p, const uint32_t *q, size_t n, double reach,
+                               bool prices);
 /* As sunder_i_forbidden_init(), but with the pieces for the required distances only: without the shadows from anchors
  * and side anchors, and without the covers of diagonals. */
 bool sunder_i_forbidden_without_paths(sunder_i_forbidden *forbidden, const sunder_i_model *model,
@@ -96,6 +113,17 @@ bool sunder_i_forbidden_add_chord(sunder_i_forbidden *forbidden, const sunder_i_
                                   uint32_t part, bool swapped, double reach, const sunder_i_body_piece *anchor,
                                   const double at[4], const uint32_t side[2]);
 void sunder_i_forbidden_free(sunder_i_forbidden *forbidden);
+
+/* Adds a polygon to the priced pieces. Returns false if memory is out. */
+bool sunder_i_forbidden_add_joined(sunder_i_forbidden *forbidden, const sunder_i_model *model,
+                                   const sunder_i_joined *joined);
+
+/* ---- joined_piece.c ---------------------------------------------------------------------------------------------- */
+
+/* Sets *out to a polygon of things f and g around u, if it shows that u is deeper in the union of their sets K than
+ * `more`; otherwise *any becomes false. Returns false if memory is out. */
+bool sunder_i_join_pieces(const sunder_i_model *model, const sunder_i_forbidden *pieces, uint32_t f, uint32_t g,
+                          const double u[2], double more, sunder_i_joined *out, bool *any, uint64_t *steps);
 
 /* ---- shut_in.c --------------------------------------------------------------------------------------------------- */
 

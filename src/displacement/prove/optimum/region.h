@@ -29,6 +29,20 @@ double sunder_i_region_beyond(const sunder_i_region *region, const double u[2], 
 
 /* ---- covered_region.c -------------------------------------------------------------------------------------------- */
 
+/* A function of u: d - n.u, divided by the share. */
+typedef struct sunder_i_slope {
+    double n[2], d, share;
+} sunder_i_slope;
+
+static inline double sunder_i_slope_at(const sunder_i_slope *slope, const double u[2])
+{
+    return (slope->d - (slope->n[0] * u[0] + slope->n[1] * u[1])) / slope->share;
+}
+
+/* Is it proved that each u of the true region is forbidden, or lacks more than the slope at u? used, steps, gap: as
+ * below. */
+bool sunder_i_region_lacks(const sunder_i_region *region, const sunder_i_forbidden *forbidden,
+                           const sunder_i_slope *slope, bool *used, double gap[2], uint64_t *steps);
 /* Is it proved that the true region lies in the forbidden set? used: NULL, or [forbidden->pieces], where the pieces
  * used by the proof are marked. gap: NULL, or receives a place of the region that shows why it is not covered: a place
  * in no piece, or next to such a place; NAN if none was found. *steps grows by the work done. */

@@ -45,6 +45,17 @@
 #include <math.h>
 #include <string.h>
 
+/* Loads the program of the root: no pair lacks anything. */
+static bool load_root(sunder_i_tree *tree)
+{
+    sunder_i_cut_force *force = sunder_i_alloc(tree->task.prices, sizeof *force);
+    for (uint32_t k = 0; force && k < tree->task.prices; k++)
+        force[k] = (sunder_i_cut_force){(uint32_t)tree->springs + 2 * k, tree->price[k].linear};
+    const bool ok = force && sunder_i_dual_load(&tree->program, force, tree->task.prices);
+    sunder_i_free(force);
+    return ok;
+}
+
 bool sunder_i_tree_init(sunder_i_tree *tree, const sunder_i_task *task)
 {
     memset(tree, 0, sizeof *tree);
@@ -62,8 +73,8 @@ bool sunder_i_tree_init(sunder_i_tree *tree, const sunder_i_task *task)
     tree->mass = sunder_i_alloc(most, sizeof *tree->mass);
     tree->limit = sunder_i_alloc(most, sizeof *tree->limit);
     tree->pair_at = sunder_i_alloc(most * most, sizeof *tree->pair_at);
-    if (!sunder_i_dual_init(&tree->program, most) || !tree->body || !tree->weight || !tree->anchor || !tree->mass ||
-        !tree->limit || !tree->pair_at)
+    if (!sunder_i_dual_init(&tree->program, most, task->prices) || !tree->body || !tree->weight || !tree->anchor ||
+        !tree->mass || !tree->limit || !tree->pair_at)
         return false;
     for (size_t k = 0; k < most * most; k++) tree->pair_at[k] = UINT32_MAX;
     for (size_t k = 0; k < n; k++)
@@ -72,9 +83,11 @@ bool sunder_i_tree_init(sunder_i_tree *tree, const sunder_i_task *task)
                                             : sunder_i_weight_below(task->model, &task->model->body[task->body[k]]));
     if (task->anchor) memcpy(tree->anchor, task->anchor, 2 * n * sizeof *tree->anchor);
     sunder_i_tree_lend_bodies(tree);
-    if (!sunder_i_dual_load(&tree->program, NULL, 0)) return false;
     sunder_i_tree_add_springs(tree);
+    sunder_i_tree_add_eased(tree);
+    if (tree->failed || !load_root(tree)) return false;
     const uint32_t root = sunder_i_tree_add_node(tree, SUNDER_I_NO_NODE, 0);
+    if (task->prices && !tree->failed) sunder_i_tree_keep_forces(tree, root);
     const sunder_i_open open = {0, root};
     if (tree->failed || !sunder_i_reserve(&tree->open, &tree->open_capacity, 1, sizeof open)) return false;
     tree->open[tree->opens++] = open;
@@ -88,10 +101,11 @@ void sunder_i_tree_free(sunder_i_tree *tree)
         sunder_i_free_all(tree->pair[k].reflex.place, tree->pair[k].sides.place);
     }
     for (size_t k = 0; k < tree->nodes; k++) sunder_i_free(tree->node[k].regions);
+    sunder_i_tree_free_eased(tree);
     sunder_i_free_all(tree->body, tree->weight, tree->anchor, tree->mass, tree->limit, tree->pair_at, tree->pair,
                       tree->cut, tree->note, tree->force, tree->node, tree->open, tree->path.item, tree->touched.item,
                       tree->near.item, tree->joins.item, tree->named.item, tree->used, tree->conflict,
-                      tree->tried.place, tree->kept, tree->kept_factor);
+                      tree->tried.place, tree->kept, tree->kept_factor, tree->eased, tree->price, tree->priced.item);
     sunder_i_dual_free(&tree->program);
     memset(tree, 0, sizeof *tree);
 }
@@ -125,6 +139,7 @@ static bool examine_node(sunder_i_tree *t, uint32_t node, double *leaf)
         }
         sunder_i_tree_find_conflicts(t);
         if (t->conflicts == 0 && !t->failed && sunder_i_tree_add_chords(t)) sunder_i_tree_find_conflicts(t);
+        if (!t->failed) sunder_i_tree_find_lacking(t);
         if (t->conflicts == 0 && !t->failed) sunder_i_tree_find_outside_conflicts(t);
         if (t->failed) return false;
         if (t->conflicts == 0) {

@@ -9,8 +9,17 @@
 
 #include <math.h>
 
-/* The task: minimise sum w_i |t_i - a_i|^2, and the cost of springs between the bodies, over the moves of n bodies for
- * which no pair of them is in its forbidden set. */
+/* A pair of bodies that is left in conflict and eased, by their places in a task's list, i < j, the price of what it
+ * lacks, and the most that it may lack, which is more than at the start. A barrier is represented by one of its
+ * parts. */
+typedef struct sunder_i_task_price {
+    uint32_t i, j;
+    sunder_i_price price;
+    double most;
+} sunder_i_task_price;
+
+/* The task: minimise sum w_i |t_i - a_i|^2, and the cost of springs between the bodies, and the prices of what pairs
+ * lack, over the moves of n bodies for which no pair of them is in its forbidden set. */
 typedef struct sunder_i_task {
     const sunder_i_model *model;
     const sunder_i_waived *waived;
@@ -19,28 +28,35 @@ typedef struct sunder_i_task {
     uint32_t group;           /* the number of this group */
     const uint32_t *body;     /* [n] */
     size_t n;
-    const double *weight; /* [n] at most the bodies' own weights; NULL: exactly these */
-    const double *anchor; /* [2 n] the points a; 0 for bodies that do not move; NULL: all are 0 */
-    double goal;          /* the bound to be proved */
+    const double *weight;            /* [n] at most the bodies' own weights; NULL: exactly these */
+    const double *anchor;            /* [2 n] the points a; 0 for bodies that do not move; NULL: all are 0 */
+    double goal;                     /* the bound to be proved */
     bool all_springs;                /* all springs between these bodies count; or: */
     const sunder_i_move_cut *spring; /* [springs] those that count */
     size_t springs;
-    bool no_paths;        /* jumps and sides are ignored, so less is forbidden */
-    bool keep;            /* record what a checker of the proof needs: see tree_record.c */
+    const sunder_i_task_price *price; /* [prices] */
+    size_t prices;
+    const sunder_i_joined *joined; /* [joins] further pieces of the eased pairs */
+    size_t joins;
+    bool no_paths; /* jumps and sides are ignored, so less is forbidden */
+    bool keep;     /* record what a checker of the proof needs: see tree_record.c */
 } sunder_i_task;
 
 typedef enum sunder_i_cut_kind {
     SUNDER_I_CUT_SPRING, /* one sign of a spring between neighbours in a row; it gives, and belongs to the root */
+    SUNDER_I_CUT_LACK,   /* what a pair lacks is at least 0, or at most `most`; it belongs to the root */
     SUNDER_I_CUT_LIMIT,  /* a tangent of a body's limit */
     SUNDER_I_CUT_CONE,   /* a side of a branch's cone */
     SUNDER_I_CUT_HULL,   /* the part that it removes is forbidden */
+    SUNDER_I_CUT_PRICE,  /* in the part that it removes the pair lacks more */
     SUNDER_I_CUT_DISC    /* the part that it removes costs at least the goal, by the forces of the parent node */
 } sunder_i_cut_kind;
 
 typedef struct sunder_i_cut_note {
     sunder_i_cut_kind kind;
-    uint32_t pair;         /* the pair, in sunder_i_tree.pair */
-    uint32_t named, names; /* for a hull, if recorded: the pieces that prove it, in sunder_i_tree.named */
+    uint32_t pair;         /* the pair, in sunder_i_tree.pair; for a cut by prices the eased pair, in .eased */
+    uint32_t named, names; /* for a hull or a cut by prices, if recorded: the pieces that prove it, in
+                            * sunder_i_tree.named */
 } sunder_i_cut_note;
 
 typedef enum sunder_i_node_state {
@@ -76,6 +92,7 @@ typedef struct sunder_i_tree_pair {
     bool has_reflex, touched;
     double reach; /* half the side of the root's region */
     double centre[2];
+    uint32_t shares;        /* the pair that has the region: this one, or an earlier one with the same relative move */
     sunder_i_region region; /* at the present node */
     double slackness;       /* 1 / w_i + 1 / w_j, rounded upwards */
 } sunder_i_tree_pair;
@@ -85,6 +102,18 @@ static inline double sunder_i_tree_pair_reach(const sunder_i_tree_pair *p)
 {
     return fabs(p->centre[0]) + fabs(p->centre[1]) + 2 * p->reach;
 }
+
+/* An eased pair. A move u and what the pair lacks there are a point (u, s) of space. */
+typedef struct sunder_i_tree_eased {
+    uint32_t pair;             /* whose region is that of the eased pair */
+    sunder_i_forbidden pieces; /* all, of all parts of a barrier */
+    sunder_i_forbidden hard;   /* those that forbid */
+    sunder_i_reflex reflex[2]; /* of both */
+    sunder_i_free_sides sides[2];
+    bool has_reflex;
+    double (*place)[3]; /* further known points */
+    size_t places, capacity;
+} sunder_i_tree_eased;
 
 typedef struct sunder_i_open {
     double value;
@@ -101,6 +130,7 @@ static inline bool sunder_i_opens_first(const void *a, const void *b)
 /* A pair in conflict at the minimiser of a node. */
 typedef struct sunder_i_tree_conflict {
     uint32_t pair;
+    uint32_t eased; /* SUNDER_I_NOBODY, or the number of the eased pair that lacks more than the program says */
     double depth, u[2];
 } sunder_i_tree_conflict;
 
@@ -119,7 +149,11 @@ typedef struct sunder_i_tree {
     sunder_i_move_cut *cut;
     sunder_i_cut_note *note;
     size_t cuts, cut_capacity, note_capacity;
-    size_t springs; /* the first cuts are springs */
+    size_t springs; /* the first cuts are springs; after them each price has two, for the least and for the most that a
+                     * pair lacks */
+    sunder_i_tree_eased *eased; /* [task.prices] */
+    sunder_i_price *price;      /* [task.prices] */
+    sunder_i_list priced;       /* the cuts by prices at the present node */
     sunder_i_cut_force *force;
     size_t forces, force_capacity;
     sunder_i_tree_node *node;
@@ -192,12 +226,37 @@ void sunder_i_tree_find_outside_conflicts(sunder_i_tree *tree);
  * its place at program.t. Returns true if any was added. */
 bool sunder_i_tree_add_chords(sunder_i_tree *tree);
 
+/* The region of a pair. */
+static inline sunder_i_region *sunder_i_tree_region(sunder_i_tree *tree, uint32_t pair)
+{
+    return &tree->pair[tree->pair[pair].shares].region;
+}
+
+/* ---- tree_eased.c ------------------------------------------------------------------------------------------------ */
+
+/* Makes the eased pairs of the task, and the cuts that they lack at least 0. */
+void sunder_i_tree_add_eased(sunder_i_tree *tree);
+void sunder_i_tree_free_eased(sunder_i_tree *tree);
+/* Adds to tree->conflict the eased pairs that lack more at program.t than the program says. */
+void sunder_i_tree_find_lacking(sunder_i_tree *tree);
+/* Proposes a cut by prices for a region of the pair's moves, not proved: all points that are not forbidden lack at
+ * least the slope. Returns false if there is none that u, lacking what the program says, does not satisfy. */
+bool sunder_i_tree_propose_price(sunder_i_tree *tree, uint32_t eased, const sunder_i_region *region, const double u[2],
+                                 sunder_i_slope *slope);
+/* Makes a polygon (joined_piece.c) for each eased pair that is deeper than its pieces show, at program.t or, with
+ * `now`, at its present place, and appends it to the list of *n. Returns false if memory is out. */
+bool sunder_i_tree_join_pieces(sunder_i_tree *tree, bool now, sunder_i_joined **list, size_t *n, size_t *capacity);
+/* Adds such a cut for the pair's region, if it is proved. */
+bool sunder_i_tree_cut_price(sunder_i_tree *tree, uint32_t eased, const double u[2]);
+
 /* ---- tree_node.c ------------------------------------------------------------------------------------------------- */
 
 /* Appends the program's forces to the record of forces. */
 void sunder_i_tree_note_forces(sunder_i_tree *tree, uint32_t *first, uint32_t *count);
 /* Adds a cut to the last node, and clips the pair's region by it. Returns the cut's number. */
 uint32_t sunder_i_tree_cut(sunder_i_tree *tree, sunder_i_cut_kind kind, uint32_t pair, const double n[2], double d);
+/* Adds a cut by prices to the last node. */
+uint32_t sunder_i_tree_add_price_cut(sunder_i_tree *tree, uint32_t eased, const sunder_i_slope *slope);
 /* Adds a node, and returns its number; cuts added after it belong to it. The second function records the program's
  * forces as those of `node`. */
 uint32_t sunder_i_tree_add_node(sunder_i_tree *tree, uint32_t parent, double value);

@@ -25,8 +25,8 @@ typedef struct branching_rays {
 
 static void choose_rays(sunder_i_tree *t, const sunder_i_tree_conflict *c, branching_rays *out)
 {
-    const sunder_i_tree_pair *p = &t->pair[c->pair];
-    const sunder_i_forbidden *f = &p->forbidden;
+    const sunder_i_forbidden *f =
+        c->eased == SUNDER_I_NOBODY ? &t->pair[c->pair].forbidden : &t->eased[c->eased].pieces;
     double nearest = INFINITY, n[2] = {1, 0};
     for (int k = 0; k < SUNDER_I_TREE_RAYS; k++) {
         const double *dir = t->ray[k];
@@ -74,19 +74,26 @@ static double try_cone(sunder_i_tree *t, const sunder_i_tree_conflict *c, const 
     double n[2][2], d[2], m[2], e;
     bool none;
     cone_cuts(t, c, b, k, n, d);
-    sunder_i_region region = t->pair[c->pair].region;
+    sunder_i_slope slope;
+    sunder_i_region region = *sunder_i_tree_region(t, c->pair);
     for (int x = 0; x < 2; x++) sunder_i_region_clip(&region, n[x], d[x], SUNDER_I_NO_CUT, grain);
-    if (!sunder_i_tree_propose(t, c->pair, &region, c->u, m, &e, &none)) return none ? 1 : 0;
+    if (region.n == 0) return 1;
+    const bool price = c->eased != SUNDER_I_NOBODY && sunder_i_tree_propose_price(t, c->eased, &region, c->u, &slope);
+    if (!price && !sunder_i_tree_propose(t, c->pair, &region, c->u, m, &e, &none)) return none ? 1 : 0;
     /* This cut is for the trial alone, and is removed below. */
-    const sunder_i_region before = t->pair[c->pair].region;
-    const size_t cuts = t->cuts;
+    const sunder_i_region before = *sunder_i_tree_region(t, c->pair);
+    const size_t cuts = t->cuts, priced = t->priced.n;
     const uint32_t own = t->nodes ? t->node[t->nodes - 1].cuts : 0;
-    sunder_i_tree_cut(t, SUNDER_I_CUT_HULL, c->pair, m, e);
+    if (price)
+        sunder_i_tree_add_price_cut(t, c->eased, &slope);
+    else
+        sunder_i_tree_cut(t, SUNDER_I_CUT_HULL, c->pair, m, e);
     if (t->failed) return 0;
     const double then = sunder_i_tree_solve(t);
     t->cuts = cuts;
     t->node[t->nodes - 1].cuts = own;
-    t->pair[c->pair].region = before;
+    *sunder_i_tree_region(t, c->pair) = before;
+    t->priced.n = priced;
     sunder_i_tree_restore_program(t);
     return sunder_i_min(1, sunder_i_max(0, (then - value) / (t->task.goal - value)));
 }
@@ -160,7 +167,8 @@ void sunder_i_tree_divide(sunder_i_tree *tree, uint32_t node)
     if (tree->failed) return;
     tree->node[node].state = SUNDER_I_DIVIDED;
     tree->node[node].pair = c.pair;
-    const sunder_i_region region = tree->pair[c.pair].region;
+    const sunder_i_region region = *sunder_i_tree_region(tree, c.pair);
+    const size_t priced = tree->priced.n;
     for (int k = 0; k < 3 && !tree->failed; k++) {
         double n[2][2], d[2];
         bool empty = false;
@@ -168,7 +176,9 @@ void sunder_i_tree_divide(sunder_i_tree *tree, uint32_t node)
         if (tree->failed) return;
         cone_cuts(tree, &c, &rays, k, n, d);
         for (int e = 0; e < 2 && !tree->failed; e++) sunder_i_tree_cut(tree, SUNDER_I_CUT_CONE, c.pair, n[e], d[e]);
-        const bool cut = !tree->failed && sunder_i_tree_cut_hull(tree, c.pair, c.u, &empty);
+        bool cut = !tree->failed && sunder_i_tree_cut_hull(tree, c.pair, c.u, &empty);
+        if (c.eased != SUNDER_I_NOBODY && !empty && !tree->failed)
+            cut = sunder_i_tree_cut_price(tree, c.eased, c.u) || cut;
         if (tree->failed) return;
         if (empty) {
             tree->node[child].state = SUNDER_I_EMPTY;
@@ -186,7 +196,8 @@ void sunder_i_tree_divide(sunder_i_tree *tree, uint32_t node)
                 sunder_i_heap_push(tree->open, &tree->opens, sizeof *tree->open, &open, sunder_i_opens_first);
             sunder_i_tree_keep_regions(tree, child);
         }
-        tree->pair[c.pair].region = region;
+        *sunder_i_tree_region(tree, c.pair) = region;
+        tree->priced.n = priced;
         sunder_i_tree_restore_program(tree);
     }
 }

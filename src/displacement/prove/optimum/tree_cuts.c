@@ -39,9 +39,9 @@ static size_t cut_disc(sunder_i_tree *t, uint32_t pair, const double u[2], doubl
         const double n[2] = {t->ray[k][0], t->ray[k][1]};
         const double d = n[0] * u[0] + n[1] * u[1] - radius * (1 + 0x1p-48);
         double least = INFINITY;
-        p = &t->pair[pair];
-        for (uint32_t c = 0; c < p->region.n; c++) {
-            const double at = n[0] * p->region.xy[2 * c] + n[1] * p->region.xy[2 * c + 1];
+        const sunder_i_region *region = sunder_i_tree_region(t, pair);
+        for (uint32_t c = 0; c < region->n; c++) {
+            const double at = n[0] * region->xy[2 * c] + n[1] * region->xy[2 * c + 1];
             if (at < least) least = at;
         }
         if (!(least < d - DISC_SHARE * radius)) continue;
@@ -68,7 +68,7 @@ bool sunder_i_tree_propose(sunder_i_tree *tree, uint32_t pair, const sunder_i_re
     *none = region->n == 0;
     if (*none || !know_reflex(tree, p)) return false;
     /* A trial must not change the free sides of the pair's own region. */
-    sunder_i_free_sides *sides = region == &p->region ? &p->sides : &tree->tried;
+    sunder_i_free_sides *sides = region == sunder_i_tree_region(tree, pair) ? &p->sides : &tree->tried;
     if (sides == &tree->tried) sides->any = false;
     if (!sunder_i_free_sides_find(sides, &p->sides, region, &p->forbidden, &tree->steps)) {
         tree->failed = true;
@@ -121,7 +121,7 @@ static bool is_empty(sunder_i_tree *t, uint32_t pair, double gap[2])
     const sunder_i_tree_pair *p = &t->pair[pair];
     sunder_i_tree_node *node = &t->node[t->nodes - 1];
     node->pair = pair;
-    return is_covered(t, p, &p->region, gap, &node->named, &node->names);
+    return is_covered(t, p, sunder_i_tree_region(t, pair), gap, &node->named, &node->names);
 }
 
 /* Adds the cut n.u >= d - room if it is proved that what it removes is forbidden. */
@@ -130,7 +130,7 @@ static bool try_cut(sunder_i_tree *t, uint32_t pair, const double n[2], double d
     const sunder_i_tree_pair *p = &t->pair[pair];
     const double back[2] = {-n[0], -n[1]};
     uint32_t named = 0, names = 0;
-    sunder_i_region cap = p->region;
+    sunder_i_region cap = *sunder_i_tree_region(t, pair);
     sunder_i_region_clip(&cap, back, room - d, SUNDER_I_NO_CUT, p->forbidden.grain);
     if (!is_covered(t, p, &cap, gap, &named, &names)) return false;
     const uint32_t cut = sunder_i_tree_cut(t, SUNDER_I_CUT_HULL, pair, n, d - room);
@@ -161,7 +161,7 @@ bool sunder_i_tree_cut_hull(sunder_i_tree *tree, uint32_t pair, const double u[2
         sunder_i_tree_pair *p = &tree->pair[pair];
         double n[2], d, gap[2];
         bool none;
-        if (sunder_i_tree_propose(tree, pair, &p->region, u, n, &d, &none)) {
+        if (sunder_i_tree_propose(tree, pair, sunder_i_tree_region(tree, pair), u, n, &d, &none)) {
             if (d == before) return false; /* the same proposal again */
             before = d;
             if (try_rooms(tree, pair, u, n, d, gap)) return true;
@@ -177,7 +177,8 @@ bool sunder_i_tree_cut_hull(sunder_i_tree *tree, uint32_t pair, const double u[2
         const double down[2] = {-n[0], -n[1]};
         const size_t known = p->reflex.n;
         p = &tree->pair[pair];
-        if (!sunder_i_reflex_seek(&p->reflex, &p->forbidden, &p->region, gap, down, &tree->steps)) tree->failed = true;
+        if (!sunder_i_reflex_seek(&p->reflex, &p->forbidden, sunder_i_tree_region(tree, pair), gap, down, &tree->steps))
+            tree->failed = true;
         if (p->reflex.n == known) return false;
     }
     return false;
@@ -192,7 +193,8 @@ size_t sunder_i_tree_refine(sunder_i_tree *tree, double value, bool *empty)
         const sunder_i_tree_conflict c = tree->conflict[k];
         const uint64_t before = tree->steps;
         discs += cut_disc(tree, c.pair, c.u, value);
-        made += sunder_i_tree_cut_hull(tree, c.pair, c.u, empty);
+        made += c.eased == SUNDER_I_NOBODY ? sunder_i_tree_cut_hull(tree, c.pair, c.u, empty)
+                                           : sunder_i_tree_cut_price(tree, c.eased, c.u);
         if (!sunder_i_steps(1 + (size_t)(tree->steps - before) / 64)) tree->failed = true;
     }
     if (tree->task.keep && discs && !tree->failed) sunder_i_tree_note_forces(tree, &node->by, &node->bys);

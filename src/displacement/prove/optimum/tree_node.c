@@ -12,6 +12,7 @@
 
 static void touch_pair(sunder_i_tree *t, uint32_t pair)
 {
+    pair = t->pair[pair].shares;
     if (t->pair[pair].touched) return;
     t->pair[pair].touched = true;
     if (!sunder_i_list_push(&t->touched, pair)) t->failed = true;
@@ -23,13 +24,17 @@ static void apply_cut(sunder_i_tree *t, uint32_t cut, bool kept)
 {
     const sunder_i_cut_note *note = &t->note[cut];
     if (note->kind == SUNDER_I_CUT_LIMIT || note->kind == SUNDER_I_CUT_SPRING) return;
+    if (note->kind == SUNDER_I_CUT_PRICE) {
+        if (!sunder_i_list_push(&t->priced, cut)) t->failed = true;
+        return;
+    }
     sunder_i_tree_pair *p = &t->pair[note->pair];
     touch_pair(t, note->pair);
     if (kept) return;
-    sunder_i_region_clip(&p->region, t->cut[cut].n, t->cut[cut].d, cut, p->forbidden.grain);
+    sunder_i_region_clip(sunder_i_tree_region(t, note->pair), t->cut[cut].n, t->cut[cut].d, cut, p->forbidden.grain);
 }
 
-uint32_t sunder_i_tree_cut(sunder_i_tree *tree, sunder_i_cut_kind kind, uint32_t pair, const double n[2], double d)
+static uint32_t add_cut(sunder_i_tree *tree, sunder_i_cut_kind kind, uint32_t pair, const sunder_i_move_cut *made)
 {
     const bool room = sunder_i_reserve(&tree->cut, &tree->cut_capacity, tree->cuts + 1, sizeof *tree->cut) &&
                       sunder_i_reserve(&tree->note, &tree->note_capacity, tree->cuts + 1, sizeof *tree->note);
@@ -39,15 +44,29 @@ uint32_t sunder_i_tree_cut(sunder_i_tree *tree, sunder_i_cut_kind kind, uint32_t
         return 0;
     }
     const uint32_t cut = (uint32_t)tree->cuts++;
-    const bool ball = kind == SUNDER_I_CUT_LIMIT;
-    tree->cut[cut] = (sunder_i_move_cut){.i = ball ? pair : tree->pair[pair].i,
-                                         .j = ball ? SUNDER_I_GROUND : tree->pair[pair].j,
-                                         .n = {n[0], n[1]},
-                                         .d = d};
+    tree->cut[cut] = *made;
     tree->note[cut] = (sunder_i_cut_note){.kind = kind, .pair = pair};
     if (tree->nodes) tree->node[tree->nodes - 1].cuts++;
     apply_cut(tree, cut, false);
     return cut;
+}
+
+uint32_t sunder_i_tree_cut(sunder_i_tree *tree, sunder_i_cut_kind kind, uint32_t pair, const double n[2], double d)
+{
+    const bool ball = kind == SUNDER_I_CUT_LIMIT;
+    const sunder_i_move_cut cut = {.i = ball ? pair : tree->pair[pair].i,
+                                   .j = ball ? SUNDER_I_GROUND : tree->pair[pair].j,
+                                   .n = {n[0], n[1]},
+                                   .d = d};
+    return add_cut(tree, kind, pair, &cut);
+}
+
+uint32_t sunder_i_tree_add_price_cut(sunder_i_tree *tree, uint32_t eased, const sunder_i_slope *slope)
+{
+    const sunder_i_tree_pair *p = &tree->pair[tree->eased[eased].pair];
+    const sunder_i_move_cut cut = {
+        .i = p->i, .j = p->j, .n = {slope->n[0], slope->n[1]}, .d = slope->d, .eased = eased, .share = slope->share};
+    return add_cut(tree, SUNDER_I_CUT_PRICE, eased, &cut);
 }
 
 void sunder_i_tree_note_forces(sunder_i_tree *tree, uint32_t *first, uint32_t *count)
@@ -85,7 +104,7 @@ void sunder_i_tree_load(sunder_i_tree *tree, uint32_t node)
         sunder_i_region_init(&p->region, p->centre, p->reach);
         p->touched = false;
     }
-    tree->touched.n = tree->path.n = 0;
+    tree->touched.n = tree->path.n = tree->priced.n = 0;
     for (uint32_t at = node; at != SUNDER_I_NO_NODE; at = tree->node[at].parent)
         if (!sunder_i_list_push(&tree->path, at)) tree->failed = true;
     const bool kept = tree->node[node].regions;
@@ -148,7 +167,33 @@ static uint32_t find_missed(sunder_i_tree *t)
         most = beyond;
         worst = cut;
     }
-    t->steps += 4 * t->touched.n;
+    for (size_t k = 0; k < t->priced.n; k++) {
+        const uint32_t c = t->priced.item[k];
+        const double missing = sunder_i_dual_missing(&t->program, &t->cut[c]);
+        if (missing <= sunder_i_max(most, HOLDS * t->eased[t->cut[c].eased].pieces.size)) continue;
+        if (sunder_i_dual_is_acting(&t->program, c)) continue;
+        most = missing;
+        worst = c;
+    }
+    t->steps += 4 * t->touched.n + t->priced.n;
+    return worst;
+}
+
+/* Returns the cut that a pair lacks at least 0, or no more than the most, for the pair that violates it most at
+ * program.t by more than rounding; UINT32_MAX if there is none. */
+static uint32_t find_beyond(sunder_i_tree *t)
+{
+    uint32_t worst = UINT32_MAX;
+    double most = 0;
+    for (uint32_t k = 0; k < 2 * t->task.prices; k++) {
+        const uint32_t cut = (uint32_t)t->springs + k;
+        const double missing = sunder_i_dual_missing(&t->program, &t->cut[cut]);
+        if (!(missing > sunder_i_max(most, HOLDS * t->eased[k / 2].pieces.size))) continue;
+        if (sunder_i_dual_is_acting(&t->program, cut)) continue;
+        most = missing;
+        worst = cut;
+    }
+    t->steps += t->task.prices;
     return worst;
 }
 
@@ -199,6 +244,7 @@ double sunder_i_tree_solve(sunder_i_tree *tree)
         uint32_t cut = find_missed(tree);
         if (cut == UINT32_MAX) cut = find_overstepped(tree);
         if (cut == UINT32_MAX) cut = find_stretched(tree);
+        if (cut == UINT32_MAX) cut = find_beyond(tree);
         if (cut == UINT32_MAX) break;
         bool failed;
         const uint64_t before = tree->program.steps;

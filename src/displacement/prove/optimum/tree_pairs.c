@@ -18,18 +18,34 @@ static double slackness_of(const sunder_i_tree *t, uint32_t i, uint32_t j)
     return (1 / t->task.weight[i] + 1 / t->task.weight[j]) * ABOVE;
 }
 
+/* How far from its anchor a body may be within its limit. */
+static double within_limits(const sunder_i_tree *t, uint32_t i)
+{
+    return t->mass[i] > 0 ? (t->limit[i] + fabs(t->anchor[2 * i]) + fabs(t->anchor[2 * i + 1])) * ABOVE : 0;
+}
+
 /* Sets the root region of a pair: a layout that costs less than the goal has |u - c| <= sqrt(goal (1 / w_i + 1 / w_j)),
  * where c is the difference of the anchors. Limits are left out, so that a limit that no body exceeds changes
- * nothing. */
+ * nothing; but prices may be so great that they count. */
 static void set_root(const sunder_i_tree *t, sunder_i_tree_pair *p)
 {
     const double *a = t->task.anchor + 2 * p->i, *b = t->task.anchor + 2 * p->j;
     p->reach = sqrt(sunder_i_max(0, t->task.goal) * p->slackness) * ABOVE;
     for (int c = 0; c < 2; c++) p->centre[c] = b[c] - a[c];
+    if (t->task.prices) p->reach = sunder_i_min(p->reach, within_limits(t, p->i) + within_limits(t, p->j));
     p->reach += 0x1p-50 * (fabs(a[0]) + fabs(a[1]) + fabs(b[0]) + fabs(b[1]));
 }
 
 static uint32_t *place_of(sunder_i_tree *t, uint32_t i, uint32_t j) { return &t->pair_at[(size_t)i * t->capacity + j]; }
+
+/* Returns the pair whose region that of bodies i and j is. With prices, pairs of i with bodies that do not move share
+ * one. */
+static uint32_t sharing(const sunder_i_tree *t, uint32_t i, uint32_t j)
+{
+    for (uint32_t k = 0; k < t->pairs && t->task.prices && !(t->mass[j] > 0); k++)
+        if (t->pair[k].i == i && !(t->mass[t->pair[k].j] > 0)) return k;
+    return (uint32_t)t->pairs;
+}
 
 sunder_i_tree_pair *sunder_i_tree_find_pair(sunder_i_tree *tree, uint32_t i, uint32_t j)
 {
@@ -40,7 +56,7 @@ sunder_i_tree_pair *sunder_i_tree_find_pair(sunder_i_tree *tree, uint32_t i, uin
         return NULL;
     }
     sunder_i_tree_pair *p = &tree->pair[tree->pairs];
-    *p = (sunder_i_tree_pair){.i = i, .j = j, .slackness = slackness_of(tree, i, j)};
+    *p = (sunder_i_tree_pair){.i = i, .j = j, .slackness = slackness_of(tree, i, j), .shares = sharing(tree, i, j)};
     *at = (uint32_t)tree->pairs++;
     set_root(tree, p);
     const double far = sunder_i_tree_pair_reach(p);
@@ -96,7 +112,8 @@ static void test_pair(sunder_i_tree *t, uint32_t i, uint32_t j)
     if (!sunder_i_reserve(&t->conflict, &t->conflict_capacity, t->conflicts + 1, sizeof *t->conflict))
         t->failed = true;
     else
-        t->conflict[t->conflicts++] = (sunder_i_tree_conflict){(uint32_t)(p - t->pair), depth, {u[0], u[1]}};
+        t->conflict[t->conflicts++] =
+            (sunder_i_tree_conflict){(uint32_t)(p - t->pair), SUNDER_I_NOBODY, depth, {u[0], u[1]}};
 }
 
 void sunder_i_tree_find_conflicts(sunder_i_tree *tree)

@@ -5,7 +5,7 @@
 
 /* SUNDER_I_OPTIMUM_TUNING_VERSION is the version of the values below. It is raised with each change of a value, so that
  * a record can name the values by their version (tests/house/TUNING). */
-#define SUNDER_I_OPTIMUM_TUNING_VERSION 4
+#define SUNDER_I_OPTIMUM_TUNING_VERSION 5
 
 /* ---- Contacts (body_contact.c) ----------------------------------------------------------------------------------- */
 
@@ -161,6 +161,31 @@
  * OVERSTEPPED of the limit. */
 #define HOLDS 0x1p-40
 #define OVERSTEPPED 0x1p-36
+
+/* ---- Eased pairs (tree_eased.c) ---------------------------------------------------------------------------------- */
+
+/* At most MOST_POINTS points are gathered for a lower hull, whose facet is found by at most MOST_EXCHANGED exchanges;
+ * it may be above points by the share HULL_HAIR of the pair's size. Places count as one if they differ by the share
+ * SAME_PLACE. Corners of the facet that are no points are as high as FAR_HEIGHT times the size at first. A slope that
+ * falls by less than LEVEL is not used to clip. A cut is proposed at most MOST_LOWER times, each time with one more
+ * point. */
+#define MOST_POINTS 768 /* fixed: the size of an array */
+#define MOST_EXCHANGED 400
+#define HULL_HAIR 0x1p-44
+#define SAME_PLACE 0x1p-36
+#define FAR_HEIGHT 0x1p20
+#define LEVEL 0x1p-20
+#define MOST_LOWER 12
+
+/* ---- Joined pieces (joined_piece.c, tree_eased.c) ---------------------------------------------------------------- */
+
+/* A polygon is clipped in at most JOINED_ROUNDS rounds, each time in a direction that differs by at most JOINED_TURN
+ * from that of the place to be left out, at the share JOINED_ROOM before the way out ends. A polygon is made if it
+ * shows a depth that is greater by the share DEEPER of the pair's size. */
+#define JOINED_ROUNDS 40
+#define JOINED_TURN 0.4
+#define JOINED_ROOM 0x1p-13
+#define DEEPER 0x1p-13
 
 /* ---- A node (tree_node.c, tree_regions.c, tree_cuts.c, tree.c) --------------------------------------------------- */
 

@@ -1,0 +1,239 @@
+/* Bounds of the contact groups whose pairs are eased: trees in which these pairs have prices.
+ *
+ * A tree is about the bodies of the group, and the parts of barriers that these lack distance from. Its guests are
+ * bodies that are in no group. Each group is proved by itself. If two have taken in the same guest, the later one is
+ * proved again without it, so that the bounds of groups add up.
+ *
+ * Where a pair overlaps, single pieces show less than its depth. So polygons that join pieces (joined_piece.c) are made
+ * for the present layout, and then for each layout that a tree finds; the tree is begun again with them. */
+#include "displacement/layer/reads.h"
+#include "displacement/prove/optimum/body_contact.h"
+#include "displacement/prove/optimum/tree.h"
+#include "displacement/report/report.h"
+#include "displacement/report/tuning.h"
+#include "displacement/solve/clusters/cluster_stages.h"
+
+#include "base/extremes.h"
+#include "base/parallel.h"
+
+#include <math.h>
+#include <string.h>
+
+typedef struct easing {
+    const sunder_report *report;
+    sunder_i_solver *solver;
+    uint32_t *group_of; /* [bodies] the group of each body, or of the group that has it as a guest; SUNDER_I_NOBODY */
+} easing;
+
+/* The bodies and prices of one group. */
+typedef struct eased_group {
+    sunder_i_list body;
+    sunder_i_task_price *price;
+    size_t prices, capacity, movers;
+    sunder_i_joined *joined;
+    size_t joins, joined_capacity;
+} eased_group;
+
+static void free_eased(eased_group *e) { sunder_i_free_all(e->body.item, e->price, e->joined); }
+
+/* ---- What a tree is about ---------------------------------------------------------------------------------------- */
+
+/* Adds the parts of the barrier of body j that body i may come near. */
+static bool add_parts(const sunder_i_model *model, eased_group *e, uint32_t i, uint32_t j)
+{
+    const double home[2] = {0, 0}, limit = sunder_i_limit_of(&model->body[i]);
+    const uint32_t whole = sunder_i_whole_of(model, model->member[model->body[j].member]);
+    sunder_i_list near = {0};
+    bool ok = limit == INFINITY || sunder_i_bodies_about(model, i, home, limit + model->rules.gap, &near);
+    for (size_t k = 0; k < near.n && ok; k++) {
+        const sunder_i_body *b = &model->body[near.item[k]];
+        if (sunder_i_is_barrier_body(model, b) && sunder_i_whole_of(model, model->member[b->member]) == whole)
+            ok = sunder_i_list_push(&e->body, near.item[k]);
+    }
+    sunder_i_free(near.item);
+    return ok && sunder_i_list_push(&e->body, j);
+}
+
+/* Is the pair one of the group? It is if the group has both bodies, or if the second one does not move. */
+static bool is_of_group(const sunder_i_model *model, const sunder_i_group *g, const sunder_i_lacking *l)
+{
+    return sunder_i_set_has(g->body, g->n, l->i) && (model->body[l->j].fixed || sunder_i_set_has(g->body, g->n, l->j));
+}
+
+static bool gather_bodies(const sunder_report *report, const sunder_i_model *model, const sunder_i_group *g,
+                          eased_group *e)
+{
+    bool ok = true;
+    for (size_t k = 0; k < g->n && ok; k++) {
+        e->movers += !model->body[g->body[k]].fixed;
+        ok = sunder_i_list_push(&e->body, g->body[k]);
+    }
+    for (size_t k = 0; k < report->eased && ok; k++) {
+        const sunder_i_lacking *l = &report->lacking[k];
+        if (!is_of_group(model, g, l)) continue;
+        ok = sunder_i_is_barrier_body(model, &model->body[l->j]) ? add_parts(model, e, l->i, l->j)
+                                                                 : sunder_i_list_push(&e->body, l->j);
+    }
+    e->body.n = sunder_i_set_make(e->body.item, e->body.n);
+    return ok;
+}
+
+static uint32_t place_of(const eased_group *e, uint32_t body)
+{
+    return (uint32_t)sunder_i_lower_bound(&body, e->body.item, e->body.n, sizeof body, sunder_i_by_number);
+}
+
+/* Adds the prices of the group's pairs, and the most that these may lack, on the safe side of rounding. With a least gap
+ * a pair may lack more than at the start. */
+static bool gather_prices(const sunder_report *report, const sunder_i_model *model, const sunder_i_group *g,
+                          eased_group *e)
+{
+    for (size_t k = 0; k < report->eased; k++) {
+        const sunder_i_lacking *l = &report->lacking[k];
+        if (!is_of_group(model, g, l)) continue;
+        if (!sunder_i_reserve(&e->price, &e->capacity, e->prices + 1, sizeof *e->price)) return false;
+        const sunder_i_body *p = &model->body[l->i], *q = &model->body[l->j];
+        const sunder_i_price price = sunder_i_price_of(model, p, q);
+        const double owed = sunder_i_owed_above(model, model->member[p->member], model->member[q->member]);
+        const uint32_t i = place_of(e, l->i), j = place_of(e, l->j);
+        e->price[e->prices++] =
+            (sunder_i_task_price){i < j ? i : j,
+                                  i < j ? j : i,
+                                  {price.linear * (1 - PRICE_ROOM), price.square * (1 - PRICE_ROOM)},
+                                  sunder_i_has_slack(model) ? INFINITY : l->home + MOST_ROOM * (l->home + owed)};
+    }
+    return true;
+}
+
+/* ---- Proofs ------------------------------------------------------------------------------------------------------ */
+
+/* Runs a tree until it is complete, or its steps are used up, or a layout that it finds shows that further polygons are
+ * needed: then *again is set. Returns false if memory is out. */
+static bool run_tree(sunder_i_tree *tree, eased_group *e, uint64_t steps, bool last, bool *again)
+{
+    const size_t before = e->joins;
+    for (bool found = true; found && !*again;) {
+        const sunder_i_tree_outcome outcome = sunder_i_tree_run(tree, steps);
+        if (tree->failed) return false;
+        found = outcome == SUNDER_I_TREE_FOUND || outcome == SUNDER_I_TREE_JOINED;
+        if (found && !last && !sunder_i_tree_join_pieces(tree, false, &e->joined, &e->joins, &e->joined_capacity))
+            return false;
+        *again = e->joins > before;
+    }
+    return true;
+}
+
+/* Keeps what the tree proves, if it is more than the group's bound. Returns false if memory is out. */
+static bool keep_bound(const sunder_i_model *model, const sunder_i_tree *tree, size_t own, sunder_i_group *g)
+{
+    const double bound = sunder_i_tree_bound(tree);
+    if (!(bound > g->bound)) return true;
+    g->bound = bound;
+    g->guests.n = 0;
+    for (size_t k = own; k < tree->task.n; k++)
+        if (!model->body[tree->body[k]].fixed && !sunder_i_list_push(&g->guests, tree->body[k])) return false;
+    g->guests.n = sunder_i_set_make(g->guests.item, g->guests.n);
+    return true;
+}
+
+static bool prove_eased(const easing *x, sunder_i_group *g, eased_group *e)
+{
+    const sunder_i_model *model = &x->solver->model;
+    const sunder_i_waived waived = {.pair = x->solver->groups.waived, .n = x->solver->groups.waived_n};
+    const double steps = EASED_STEPS * sunder_i_max(FEWEST_EASED, (double)e->movers) * model->rules.effort;
+    sunder_i_task task = {.model = model,
+                          .waived = &waived,
+                          .group_of = x->group_of,
+                          .group = g->number,
+                          .body = e->body.item,
+                          .n = e->body.n,
+                          .goal = g->cost * (1 - EASED_NEAR),
+                          .all_springs = true,
+                          .price = e->price,
+                          .prices = e->prices};
+    bool ok = true, again = true;
+    for (int round = 0; ok && again; round++) {
+        sunder_i_tree tree;
+        task.joined = e->joined;
+        task.joins = e->joins;
+        ok = sunder_i_tree_init(&tree, &task);
+        if (ok && round == 0) ok = sunder_i_tree_join_pieces(&tree, true, &e->joined, &e->joins, &e->joined_capacity);
+        again = ok && e->joins > task.joins;
+        if (ok && !again) ok = run_tree(&tree, e, (uint64_t)sunder_i_min(steps, 0x1p62), round >= MOST_JOINED, &again);
+        if (ok && !again) ok = keep_bound(model, &tree, e->body.n, g);
+        sunder_i_tree_free(&tree);
+    }
+    return ok;
+}
+
+static sunder_status prove_group(const easing *x, sunder_i_group *g, sunder_error *err)
+{
+    const sunder_i_model *model = &x->solver->model;
+    eased_group e = {0};
+    sunder_i_reading reading;
+    sunder_i_reads_begin(&reading, model, g->number);
+    bool ok = gather_bodies(x->report, model, g, &e) && gather_prices(x->report, model, g, &e);
+    if (ok && e.prices && e.movers <= MOST_EASED) ok = prove_eased(x, g, &e);
+    sunder_i_reads_end(&reading);
+    free_eased(&e);
+    return ok ? SUNDER_OK : sunder_i_failure_cause(err);
+}
+
+static sunder_status prove_groups(void *context, size_t begin, size_t end, sunder_error *err)
+{
+    const easing *x = context;
+    sunder_status status = SUNDER_OK;
+    for (size_t k = begin; k < end && !status; k++)
+        if (x->solver->groups.group[k].cost > 0) status = prove_group(x, &x->solver->groups.group[k], err);
+    return status;
+}
+
+/* Does a former group have one of the guests of this one? */
+static bool shares_guest(const easing *x, const sunder_i_group *g)
+{
+    for (size_t k = 0; k < g->guests.n; k++)
+        if (x->group_of[g->guests.item[k]] != SUNDER_I_NOBODY) return true;
+    return false;
+}
+
+static void take_guests(easing *x, const sunder_i_group *g)
+{
+    for (size_t m = 0; m < g->guests.n; m++) x->group_of[g->guests.item[m]] = g->number;
+}
+
+/* Gives each guest to one group: to one whose bound was not raised here, or to the first. former: [groups] the bounds
+ * before. */
+static sunder_status part_guests(easing *x, const double *former, sunder_error *err)
+{
+    sunder_i_groups *groups = &x->solver->groups;
+    sunder_status status = SUNDER_OK;
+    for (size_t k = 0; k < groups->n; k++)
+        if (!(groups->group[k].bound > former[k])) take_guests(x, &groups->group[k]);
+    for (size_t k = 0; k < groups->n && !status; k++) {
+        sunder_i_group *g = &groups->group[k];
+        if (!(g->bound > former[k])) continue;
+        if (shares_guest(x, g)) {
+            g->bound = former[k];
+            g->guests.n = 0;
+            status = prove_group(x, g, err);
+        }
+        take_guests(x, g);
+    }
+    return status;
+}
+
+sunder_status sunder_i_report_eased_groups(const sunder_report *report, sunder_i_solver *solver, sunder_error *err)
+{
+    sunder_i_groups *groups = &solver->groups;
+    easing x = {report, solver, sunder_i_alloc(solver->model.bodies, sizeof *x.group_of)};
+    double *former = sunder_i_alloc(groups->n, sizeof *former);
+    sunder_status status = x.group_of && former ? SUNDER_OK : sunder_i_failure_cause(err);
+    if (!status) {
+        memcpy(x.group_of, groups->of, solver->model.bodies * sizeof *x.group_of);
+        for (size_t k = 0; k < groups->n; k++) former[k] = groups->group[k].bound;
+        status = sunder_i_parallel(solver->model.rules.threads, groups->n, 1, prove_groups, &x, err);
+    }
+    if (!status) status = part_guests(&x, former, err);
+    sunder_i_free_all(x.group_of, former);
+    return status;
+}
