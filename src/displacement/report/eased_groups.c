@@ -83,8 +83,8 @@ static uint32_t place_of(const eased_group *e, uint32_t body)
     return (uint32_t)sunder_i_lower_bound(&body, e->body.item, e->body.n, sizeof body, sunder_i_by_number);
 }
 
-/* Adds the prices of the group's pairs, and the most that these may lack, on the safe side of rounding. With a least gap
- * a pair may lack more than at the start. */
+/* Adds the prices of the group's pairs, and the most that these may lack, on the safe side of rounding. With a least
+ * gap a pair may lack more than at the start. */
 static bool gather_prices(const sunder_report *report, const sunder_i_model *model, const sunder_i_group *g,
                           eased_group *e)
 {
