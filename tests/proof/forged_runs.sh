@@ -77,5 +77,5 @@ forge_generated() {
     forged squeezed squeezed.gpkg --gap 5 --max-shift 20 --fixed-where 'w = 3' --rows auto
     only='"within"' forged shut shut.gpkg --barrier shut_in.gpkg
     forged shares squares.gpkg --gap 3 --effort 0
-    small_worlds 30 41 55 156 200 226 261 386 518 549 618 634 652 655 663 673 692 705 755 980 1047 1129 1136 1171 1228 1466
+    small_worlds 30 41 55 112 135 156 200 226 261 386 518 549 618 634 652 655 663 673 692 705 755 980 1047 1129 1136 1171 1228 1466 3063 3192 3231
 }
