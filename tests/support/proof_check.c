@@ -173,10 +173,12 @@ const char *proof_check(const proof_feature *thing, size_t n, size_t things, dou
     c.path_node = calloc(c.proof->nodes, sizeof *c.path_node);
     c.path_way = calloc(c.proof->nodes, sizeof *c.path_way);
     c.seen = calloc(c.proof->nodes, sizeof *c.seen);
+    proof_list_slacks(&c);
     const char *wrong = check_node(&c, 0, 0);
     if (!wrong) wrong = check_blockers(&c);
     free(c.path_node);
     free(c.path_way);
     free(c.seen);
+    free(c.slack);
     return wrong;
 }

@@ -8,6 +8,12 @@
 
 #include <stdbool.h>
 
+/* A pair with slack: the first node that gives it slack, and the longest slack that a node gives it. */
+typedef struct proof_slack {
+    size_t node;
+    double longest;
+} proof_slack;
+
 typedef struct checking {
     const proof_feature *feature; /* [things], barriers from n on */
     size_t n, things, conflict;
@@ -18,6 +24,8 @@ typedef struct checking {
     const sunder_proof *proof;
     size_t *path_node, *path_way; /* on the path from the root */
     bool *seen;
+    proof_slack *slack; /* [slacks] */
+    size_t slacks;
 } checking;
 
 /* proof_parts.c: is every other corner on the left of every side? Is the part convex, and inside the feature? */
@@ -57,6 +65,8 @@ const char *proof_check_still(const checking *c, const sunder_proof_node *leaf, 
 /* proof_leaf.c: the forces on the path to the leaf gain more than the limits can lose. */
 bool proof_same_block(const checking *c, size_t a, size_t b);
 double proof_limit_of(const checking *c, size_t feature);
+/* Lists the pairs with slack in c->slack, which the caller frees, before leaves are checked. */
+void proof_list_slacks(checking *c);
 const char *proof_check_leaf(const checking *c, const sunder_proof_node *leaf, size_t depth);
 
 #endif

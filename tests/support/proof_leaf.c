@@ -3,6 +3,7 @@
 #include "rational_plane.h"
 
 #include <stdint.h>
+#include <stdlib.h>
 
 bool proof_same_block(const checking *c, size_t a, size_t b)
 {
@@ -76,29 +77,25 @@ static void add_lost(mpq_t lost, const vec *net, double limit)
     mpq_clears(f, most, NULL);
 }
 
-/* Is it the first node of the proof with the slack of its pair? */
-static bool is_first_slack(const sunder_proof *p, size_t k)
+/* Lists the pairs with slack. A leaf loses most with the longest slack that a node gives for a pair. */
+void proof_list_slacks(checking *c)
 {
-    for (size_t m = 0; m < k; m++)
-        if (p->node[m].slack && p->node[m].a == p->node[k].a && p->node[m].b == p->node[k].b) return false;
-    return p->node[k].slack;
-}
-
-/* The longest slack that a node gives for the pair: a leaf loses most with that one. */
-static double longest_slack(const sunder_proof *p, const sunder_proof_node *of)
-{
-    double longest = 0;
-    for (size_t m = 0; m < p->nodes; m++)
-        if (p->node[m].slack && p->node[m].a == of->a && p->node[m].b == of->b && -p->node[m].clearance > longest)
-            longest = -p->node[m].clearance;
-    return longest;
+    const sunder_proof *p = c->proof;
+    c->slack = calloc(p->nodes, sizeof *c->slack);
+    for (size_t k = 0; k < p->nodes; k++) {
+        const sunder_proof_node *node = &p->node[k];
+        size_t m = 0;
+        if (!node->slack) continue;
+        while (m < c->slacks && (p->node[c->slack[m].node].a != node->a || p->node[c->slack[m].node].b != node->b)) m++;
+        if (m == c->slacks) c->slack[c->slacks++] = (proof_slack){k, 0};
+        if (-node->clearance > c->slack[m].longest) c->slack[m].longest = -node->clearance;
+    }
 }
 
 /* The amount that a leaf loses by the limits: the sum over blocks, each represented by its first member, except the
  * block that cannot move; and over slacks. */
 static void sum_lost(const checking *c, const sunder_proof_node *leaf, size_t still, mpq_t lost)
 {
-    const sunder_proof *p = c->proof;
     vec net;
     vec_init(&net);
     mpq_set_ui(lost, 0, 1);
@@ -109,10 +106,9 @@ static void sum_lost(const checking *c, const sunder_proof_node *leaf, size_t st
         sum_net(c, leaf, b, NULL, &net);
         add_lost(lost, &net, proof_limit_of(c, b));
     }
-    for (size_t k = 0; k < p->nodes; k++) {
-        if (!is_first_slack(p, k)) continue;
-        sum_net(c, leaf, 0, &p->node[k], &net);
-        add_lost(lost, &net, longest_slack(p, &p->node[k]));
+    for (size_t k = 0; k < c->slacks; k++) {
+        sum_net(c, leaf, 0, &c->proof->node[c->slack[k].node], &net);
+        add_lost(lost, &net, c->slack[k].longest);
     }
     vec_clear(&net);
 }
