@@ -12,7 +12,8 @@
 
 static const size_t stage[] = FIT_STAGES;
 
-/* Ends the relaxations between bodies a and b in the search, except infeasible ones. False if memory is out. */
+/* Ends the relaxations between bodies a and b in the search, except infeasible ones. The model may list a pair twice,
+ * with equal values, and the search each once. False if memory is out. */
 static bool restore_between(sunder_i_search *s, uint32_t a, uint32_t b)
 {
     const sunder_i_model *model = s->model;
@@ -21,6 +22,7 @@ static bool restore_between(sunder_i_search *s, uint32_t a, uint32_t b)
         const sunder_i_relaxation *t = &model->relaxations.item[k];
         const sunder_i_restored r = sunder_i_restored_of(model, t);
         if (t->infeasible || sunder_i_by_id_pair(&r.body, &pair) != 0) continue;
+        if (k && sunder_i_by_id_pair(t - 1, t) == 0 && !t[-1].infeasible) continue;
         if (!sunder_i_reserve(&s->restored, &s->restored_capacity, s->restored_n + 1, sizeof *s->restored))
             return false;
         s->restored[s->restored_n++] = r;
