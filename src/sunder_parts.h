@@ -68,7 +68,7 @@ SUNDER_EXPERIMENTAL const sunder_world *sunder_report_worlds(const sunder_report
 SUNDER_EXPERIMENTAL const sunder_footprint *sunder_report_footprints(const sunder_report *report, size_t *n);
 /* Two lower bounds of the cost of a part of a world. `proved` is the bound that trees or prices prove, and is part of
  * lower_bound. `by_pairs` is the bound that the least translations of pairs prove, and is part of pair_bound. The other
- * members are parts of those of the summary with the same names. */
+ * members add up over all parts to the members of the summary that have their names. */
 typedef struct sunder_world_bound {
     double proved, by_pairs;
     size_t short_pairs;

@@ -90,8 +90,8 @@ void gis_conflict_texts_clear(gis_conflict_texts *scratch);
 enum { N_PUSH_COLUMNS = 7 };
 void gis_things_push(const gis_things *things, const sunder_push *push, gis_value values[N_PUSH_COLUMNS]);
 
-/* Adds the layer MAIN_suffix, or MAIN if suffix is "". With by_row, it has the column of that name; with
- * tight, it may list tight pairs. */
+/* Adds the layer of conflicts: MAIN_suffix, or MAIN if suffix is "". by_row: it has the column by_row. tight: it may
+ * list tight pairs. */
 bool gis_conflicts_begin(gis_sink *sink, const char *suffix, OGRFieldType id, OGRSpatialReferenceH crs, bool by_row,
                          bool tight, gis_sink_layer **layer, gis_error *error);
 bool gis_pushes_begin(gis_sink *sink, OGRSpatialReferenceH crs, gis_sink_layer **layer, gis_error *error);

@@ -152,15 +152,5 @@ def check_layer(program, seed):
     return trouble if sums[3] else trouble + ["nothing is tight"]
 
 
-def main():
-    program, seed, layers = sys.argv[1], int(sys.argv[2]), int(sys.argv[3])
-    failed = 0
-    for layer in range(layers):
-        for line in check_layer(program, "%d %d" % (seed, layer)):
-            print("layer %d: %s" % (layer, line))
-            failed += 1
-    return min(failed, 1)
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(base.main(check_layer))

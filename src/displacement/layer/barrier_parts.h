@@ -37,31 +37,31 @@ static inline uint32_t sunder_i_first_part(const sunder_i_barriers *b, uint32_t 
     return k ? b->part_end[k - 1] : 0;
 }
 
+/* A distance and the error of its rounding, r[0] + r[1], rounded down and rounded up. */
+static inline double sunder_i_rounded_down(const double r[2]) { return r[1] < 0 ? nextafter(r[0], 0) : r[0]; }
+static inline double sunder_i_rounded_up(const double r[2]) { return r[1] > 0 ? nextafter(r[0], INFINITY) : r[0]; }
+
 /* The distance that features have to keep from the barrier, rounded down. */
 static inline double sunder_i_required_below(const sunder_i_barriers *b, uint32_t barrier)
 {
-    const double *r = b->required[barrier];
-    return r[1] < 0 ? nextafter(r[0], 0) : r[0];
+    return sunder_i_rounded_down(b->required[barrier]);
 }
 
 /* The distance that features have to keep from the barrier, rounded up. */
 static inline double sunder_i_required_above(const sunder_i_barriers *b, uint32_t barrier)
 {
-    const double *r = b->required[barrier];
-    return r[1] > 0 ? nextafter(r[0], INFINITY) : r[0];
+    return sunder_i_rounded_up(b->required[barrier]);
 }
 
 /* The distance that features keep from the barrier if it pays, rounded down, and rounded up. */
 static inline double sunder_i_full_required_below(const sunder_i_barriers *b, uint32_t barrier)
 {
-    const double *r = b->full[barrier];
-    return r[1] < 0 ? nextafter(r[0], 0) : r[0];
+    return sunder_i_rounded_down(b->full[barrier]);
 }
 
 static inline double sunder_i_full_required_above(const sunder_i_barriers *b, uint32_t barrier)
 {
-    const double *r = b->full[barrier];
-    return r[1] > 0 ? nextafter(r[0], INFINITY) : r[0];
+    return sunder_i_rounded_up(b->full[barrier]);
 }
 
 /* Sets *out to a shape of those pieces of one barrier whose boxes come within `reach` of `box`; NULL if there are none.

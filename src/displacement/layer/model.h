@@ -467,8 +467,8 @@ const sunder_i_row_side *sunder_i_row_side_of(const sunder_i_model *model, const
 bool sunder_i_add_row_neighbours(const sunder_i_model *model, uint32_t body, sunder_i_list *list);
 /* Sets `spring` to the springs between the two, with their weight. Returns their number. */
 size_t sunder_i_springs_of(const sunder_i_model *model, const sunder_i_row_side *side, sunder_i_spring spring[2]);
-/* Returns the cost of these springs for the moves t of the body and s of the neighbour. The first function
- * uses the stiffness of the model's rules, the second one the given stiffness across and along the row. */
+/* Returns the cost of the springs between a body with the move t and its neighbour in a row with the move s. The first
+ * function uses the stiffness of the model's rules, the second one the given stiffness across and along the row. */
 double sunder_i_spring_cost(const sunder_i_model *model, const sunder_i_row_side *side, const double t[2],
                             const double s[2]);
 double sunder_i_spring_cost_with(const double stiffness[2], const sunder_i_row_side *side, const double t[2],

@@ -119,7 +119,7 @@ sunder_status sunder_i_report_measure(const sunder_i_model *model, const sunder_
 /* Lists the tight pairs in report->tight, once the conflicts are known. reasons: as in sunder_i_report_conflicts(). */
 sunder_status sunder_i_report_tight(sunder_report *report, const sunder_i_model *model,
                                     const sunder_i_placement *placement, bool reasons, sunder_error *err);
-/* Adds the tight pairs to the list of conflicts, all of which are measured by their full distances from then on. */
+/* Adds the tight pairs to the list of conflicts. From then on all entries are measured by their full distances. */
 sunder_status sunder_i_report_add_tight(sunder_report *report, const sunder_i_model *model, sunder_error *err);
 
 /* ---- eased_pairs.c ----------------------------------------------------------------------------------------------- */

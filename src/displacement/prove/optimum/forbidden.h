@@ -16,7 +16,7 @@ typedef struct sunder_i_forbidden_piece {
     bool row;                         /* it is the half-plane of the rule of rows; a and b are any pieces of the two */
     bool priced; /* it forbids nothing, but has a price: a move lacks at least the radius less its distance from K, or
                   * plus its depth in K */
-    bool joined;      /* it is priced, and K lies in the union of those of other pieces of the same features */
+    bool joined;      /* it is priced, and K lies in the union of the sets K of other pieces of the same features */
     double clearance; /* NAN: the full distance is required; else the clearance to which the pair is held instead
                        * (layer/requirement.h) */
     uint32_t side[2];         /* if they differ: it is the shadow of a chord, and lies in these two pieces */
@@ -102,8 +102,8 @@ bool sunder_i_forbidden_init_near(sunder_i_forbidden *forbidden, const sunder_i_
  * about `most` pieces at most: the list is complete only if there are no more. */
 bool sunder_i_forbidden_with_covers(sunder_i_forbidden *forbidden, const sunder_i_model *model, uint32_t p, uint32_t q,
                                     double reach, size_t most);
-/* Adds the shadow made of a piece of body p and one of body q, one of which is an anchor, as far as it is within
- * `reach` of u = 0. A part of the same barrier may stand for one of the two bodies. The pieces must not have been
+/* Adds the shadow of a piece of one of the bodies p and q from an anchor of the other, up to the distance `reach` from
+ * u = 0. A part of the same barrier may stand for one of the two bodies. The pieces must not have been
  * sorted into a tree of boxes. Returns false if memory is out. */
 bool sunder_i_forbidden_add_shadow(sunder_i_forbidden *forbidden, const sunder_i_model *model, uint32_t p, uint32_t q,
                                    double reach, const sunder_i_body_piece *a, const sunder_i_body_piece *b);

@@ -20,8 +20,8 @@
 
 /* ---- The pairs --------------------------------------------------------------------------------------------------- */
 
-/* Sets `near` to the bodies that are body j or, if that is a part of a barrier, to all parts of that barrier that body
- * i may come near. */
+/* Sets `near` to body j. If body j is a part of a barrier, sets it to all parts of that barrier that body i may come
+ * near. */
 static bool find_parts(const sunder_i_tree *t, uint32_t i, uint32_t j, double reach, sunder_i_list *near)
 {
     const sunder_i_model *model = t->task.model;

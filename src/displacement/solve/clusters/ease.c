@@ -32,8 +32,9 @@ static bool has_to_ease(const sunder_i_solver *s, const sunder_i_cluster *c)
     return sunder_i_solver_any_of(s, c->body, c->n, is_to_ease);
 }
 
-/* Joins the bodies of each of these pairs that is in conflict, or tight, if one of them may move. With a full gap the
- * bodies are to be eased: all of them, or those that were in different clusters. *any: there were some. */
+/* Joins the two bodies of each relation that is in conflict or tight, if one of the two may move. With a full gap such
+ * bodies are marked to be eased: with `all` each of them, else those that were in different clusters. *any: whether any
+ * body was. */
 static sunder_status join_pairs(sunder_i_solver *s, const sunder_i_relations *relations, bool all, bool *any,
                                 sunder_error *err)
 {

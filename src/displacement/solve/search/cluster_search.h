@@ -161,7 +161,8 @@ void sunder_i_search_visit_near_or_home(sunder_i_search *search, double reach, s
 /* From now on pairs that are left in conflict are eased: the cost includes the price of what they lack, and programs
  * have a constraint for each. False if memory is out. */
 bool sunder_i_search_ease(sunder_i_search *search);
-/* The same for the pairs that this search relaxed, in place of those of the model. */
+/* Does what sunder_i_search_ease() does, for the pairs that the search itself relaxed in place of those that the model
+ * relaxes. */
 bool sunder_i_search_ease_own(sunder_i_search *search);
 /* Does the cost of a layout include prices? */
 static inline bool sunder_i_search_has_prices(const sunder_i_search *search)

@@ -115,8 +115,8 @@ sunder_i_clash *sunder_i_search_at_home(sunder_i_search *search, size_t *n);
 /* Moves all bodies to their original places and relaxes the n pairs that clash there. Returns whether nothing clashes
  * then; it does not unless memory is out. */
 bool sunder_i_search_relax_at_home(sunder_i_search *search, const sunder_i_clash *at_home, size_t n);
-/* Solves the cluster from the original places, where n pairs clash; each of these may fall short of its distance, and
- * is relaxed if it does. False if memory is out. */
+/* Solves the cluster from the original places. The n pairs at_home clash there: each may fall short of its distance,
+ * and is relaxed if it does. False if memory is out. */
 bool sunder_i_search_fall_short(sunder_i_search *search, const sunder_i_clash *at_home, size_t n);
 
 /* ---- yield.c ----------------------------------------------------------------------------------------------------- */
