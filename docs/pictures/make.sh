@@ -60,9 +60,9 @@ scene town.gpkg
 for k in 0 1 2 3 4 5 6; do
     box house $((26 + 9 * k)) 11 $((34 + 9 * k)) 19
 done | layer buildings POLYGON
-draw zigzag 118 30 --gap 4 --touch-tolerance 0
+draw zigzag 118 30 --gap 4 --touch-tolerance 0 --rows no
 rm out.gpkg
-draw row 118 30 --gap 4 --touch-tolerance 0 --rows auto
+draw row 118 30 --gap 4 --touch-tolerance 0
 
 # A street front whose houses have to leave the drawn road, some of them by 0.1 to 0.3 more than they may move: those
 # stay, or come as near as they may, in line with the others.
@@ -73,9 +73,9 @@ for house in "6 15" "19 16" "32 14" "45 17" "58 13" "71 16"; do
     box house "$x" "$y" $((x + 10)) "$(awk -v y="$y" 'BEGIN { print y + 8 }')"
 done | layer buildings POLYGON
 printf 'main_street\tLINESTRING (-10 8, 100 8)\n' | layer roads LINESTRING 7
-draw front_plain 87 26 --gap 1 --max-shift 3 --barrier scene.gpkg,layer=roads,width=7
+draw front_plain 87 26 --gap 1 --max-shift 3 --barrier scene.gpkg,layer=roads,width=7 --rows no --ease no
 rm out.gpkg
-draw front 87 26 --gap 1 --max-shift 3 --barrier scene.gpkg,layer=roads,width=7 --rows auto --ease 30
+draw front 87 26 --gap 1 --max-shift 3 --barrier scene.gpkg,layer=roads,width=7
 
 # A piece of the town for a map at 1:25 000: roads 0.3 mm wide, 0.1 mm of paper between.
 sunder separate --quiet --allow-conflicts -l buildings --scale 25000 --gap 0.1mm --max-shift 0.4mm \

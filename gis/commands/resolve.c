@@ -113,17 +113,20 @@ static const char *rows_field_of(const gis_options *options)
     return text && strcmp(text, "auto") != 0 && strcmp(text, "no") != 0 ? text : NULL;
 }
 
-/* Rows are of polygons: the layers of points are those with a symbol. The command check takes rows from the original
- * layer alone (gis_resolve_original()). */
+/* Rows are of polygons: the layers of points are those with a symbol, and have none unless said. The command check
+ * takes rows from the original layer alone (gis_resolve_original()). */
 static bool resolve_rows(const gis_options *options, gis_layer_rules *out, gis_error *error)
 {
-    const char *text = options->text[OPT_ROWS], *field = rows_field_of(options);
-    const bool wanted = field || (text && strcmp(text, "auto") == 0);
+    const bool points = options->given[OPT_SYMBOL] || options->given[OPT_SYMBOL_FIELD],
+               moves = options->command->bit != GIS_CHECK || options->given[OPT_BEFORE];
+    const char *usual = points || !moves ? "no" : "auto",
+               *text = options->given[OPT_ROWS] ? options->text[OPT_ROWS] : usual, *field = rows_field_of(options);
+    const bool wanted = strcmp(text, "no") != 0;
     out->core.rows = field ? SUNDER_ROWS_GIVEN : wanted ? SUNDER_ROWS_FOUND : SUNDER_ROWS_NONE;
     out->rows_field = options->command->bit == GIS_CHECK ? NULL : field;
     if (field && options->given[OPT_PROOF])
         return gis_fail_usage(error, "--proof: the checker of a proof finds rows by itself; use --rows auto or no");
-    if (!wanted || !(options->given[OPT_SYMBOL] || options->given[OPT_SYMBOL_FIELD])) return true;
+    if (!wanted || !points) return true;
     return gis_fail_usage(error, "--rows: rows are found among polygons, and the symbols of points have none");
 }
 
@@ -146,9 +149,14 @@ static bool resolve_stiffness(const gis_options *options, double stiffness[2], g
                           text);
 }
 
+/* The price unless --ease gives one. */
+static const double usual_ease = 30;
+
+/* A proof cannot name what pairs lack, so that none is eased with --proof unless said. */
 static bool resolve_ease(const gis_options *options, double *ease, gis_error *error)
 {
     const char *text = options->text[OPT_EASE];
+    if (!text && options->command->bit != GIS_CHECK && !options->given[OPT_PROOF]) *ease = usual_ease;
     if (!text || strcmp(text, "no") == 0) return true;
     if (!gis_length_parse_number(text, strlen(text), ease) || !(*ease > 0))
         return gis_fail_usage(error, "--ease %s: neither a number above 0 nor \"no\"", text);
@@ -215,10 +223,7 @@ static bool resolve_barriers(const gis_options *options, gis_layer_input_request
     return true;
 }
 
-/* The usual price of what pairs lack. */
-static const double usual_ease = 30;
-
-/* Checks the least gaps, whose pairs have the price of --ease, or else the usual one. */
+/* Checks the least gaps, whose pairs have the price of --ease. */
 static bool resolve_least_gaps(const gis_options *options, gis_layer_input_request *out, gis_error *error)
 {
     gis_layer_rules *rules = &out->rules;
@@ -239,7 +244,6 @@ static bool resolve_least_gaps(const gis_options *options, gis_layer_input_reque
         return gis_fail_usage(error, "--proof: a proof cannot name what pairs lack; leave out the least gap");
     if (options->text[OPT_EASE] && !(rules->core.ease > 0))
         return gis_fail_usage(error, "--ease no: pairs between the least gap and the gap need a price");
-    if (!options->text[OPT_EASE]) rules->core.ease = usual_ease;
     return true;
 }
 

@@ -197,7 +197,7 @@ static void print_counts(const sunder_layer_summary *summary)
 static void print_rows(const gis_separate_run *run)
 {
     const sunder_layer_summary *summary = &run->summary;
-    if (!run->request.rules.core.rows) return;
+    if (summary->rows == 0) return;
     printf("rows %zu, features in them %zu\n", summary->rows, summary->row_features);
     printf("kink of neighbours in rows (%s): mean %.3g, 95 %% at most %.3g, above %.3g: %.3g %%\n",
            gis_separate_unit(run), summary->kink_mean, summary->kink_p95, gis_layer_kink(&run->input),
@@ -211,7 +211,7 @@ static void print_rows(const gis_separate_run *run)
 static void print_shortfall(const gis_separate_run *run)
 {
     const sunder_layer_summary *summary = &run->summary;
-    if (!(run->request.rules.core.ease > 0)) return;
+    if (summary->short_pairs == 0 && summary->tight == 0) return;
     printf("pairs that lack a part of their distance %zu, which is %.6g in sum (%s)", summary->short_pairs,
            summary->shortfall, gis_separate_unit(run));
     if (run->request.rules.has_least_gap) printf("; tight %zu", summary->tight);

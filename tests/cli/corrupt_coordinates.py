@@ -99,7 +99,7 @@ def separate(rows, value, extra):
         out = csv.writer(f)
         out.writerow(["kind", "WKT"])
         out.writerows((kind, wkt(value)) for kind, wkt in rows)
-    done = subprocess.run([os.environ["SUNDER"], "separate", "corrupt.csv", "corrupt.geojson", "--overwrite", "--quiet",
+    done = subprocess.run([os.environ["SUNDER"], "separate", "corrupt.csv", "corrupt.geojson", "--overwrite", "--quiet", "--rows", "no", "--ease", "no",
                            "--oo", "GEOM_POSSIBLE_NAMES=WKT", "--no-blocks", "--stats", "-", *extra],
                           capture_output=True, text=True)
     if done.returncode not in (0, 3):

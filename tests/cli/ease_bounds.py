@@ -214,7 +214,7 @@ def write_layers(worlds, turn):
 
 def run(program, houses, roads, worlds, turn, kappa):
     """The moves and listed pairs of each world, and the statistics."""
-    done = subprocess.run([program, "separate", "b.gpkg", "bo.gpkg", "--overwrite", "--gap", repr(GAP),
+    done = subprocess.run([program, "separate", "b.gpkg", "bo.gpkg", "--overwrite", "--rows", "no", "--gap", repr(GAP),
                            "--input-layer", "houses", "--no-blocks", "--contained", "separate", "--allow-jumps",
                            "--max-shift-field", "most", "--weight-field", "w", "--barrier",
                            "b.gpkg,layer=roads,width-field=width,side=no", "--ease", repr(kappa), "--stats", "b.json"],

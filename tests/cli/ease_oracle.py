@@ -143,7 +143,7 @@ class Run:
     """A run of the program: moves, listed pairs with what they lack, and the statistics."""
 
     def __init__(self, program, fronts, words):
-        done = subprocess.run([program, "separate", "in.gpkg", "out.gpkg", "--overwrite", "--gap", "4", "--input-layer", "houses",
+        done = subprocess.run([program, "separate", "in.gpkg", "out.gpkg", "--overwrite", "--rows", "no", "--gap", "4", "--input-layer", "houses",
                                "--no-blocks", "--contained", "separate", "--max-shift-field", "most", "--weight-field", "w",
                                "--barrier", "in.gpkg,layer=roads,width-field=width", "--stats", "stats.json"] + words,
                               capture_output=True, text=True)
@@ -199,7 +199,7 @@ def check_layer(program, seed):
     rng = random.Random(seed)
     fronts = [Front(rng, t) for t in range(FRONTS)]
     write_layers(fronts)
-    plain, trouble, squares = Run(program, fronts, []), [], None
+    plain, trouble, squares = Run(program, fronts, ["--ease", "no"]), [], None
     for kappa in (3.0, 30.0, 300.0):
         run = Run(program, fronts, ["--ease", repr(kappa)])
         costs, least = run.cost(fronts, kappa), [least_cost(f, plain.lacks[t], kappa) for t, f in enumerate(fronts)]

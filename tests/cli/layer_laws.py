@@ -64,8 +64,8 @@ class Run:
     """Moves by number, pairs in conflict, the longest move."""
 
     def __init__(self, sunder, path, gap, limit, tolerance=TOLERANCE, more=()):
-        words = [sunder, "separate", path, "o.gpkg", "--overwrite", "-q", "--gap", repr(gap), "--touch-tolerance",
-                 repr(tolerance), "--stats", "s.json"]
+        words = [sunder, "separate", path, "o.gpkg", "--overwrite", "-q", "--rows", "no", "--ease", "no", "--gap", repr(gap),
+                 "--touch-tolerance", repr(tolerance), "--stats", "s.json"]
         words += ["--max-shift", repr(limit)] if limit else []
         done = subprocess.run(words + list(more), capture_output=True, text=True)
         if done.returncode not in (0, 3):

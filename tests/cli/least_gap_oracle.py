@@ -25,7 +25,7 @@ class Run:
 
     def __init__(self, program, fronts, gap, words):
         self.call = ["--gap", repr(gap), "--input-layer", "houses", "--no-blocks", "--contained", "separate"]
-        done = subprocess.run([program, "separate", "in.gpkg", "out.gpkg", "--overwrite", "--max-shift-field", "most",
+        done = subprocess.run([program, "separate", "in.gpkg", "out.gpkg", "--overwrite", "--rows", "no", "--max-shift-field", "most",
                                "--weight-field", "w", "--stats", "stats.json"] + self.call + words,
                               capture_output=True, text=True)
         assert done.returncode in (0, 3), done.stderr

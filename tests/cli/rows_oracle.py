@@ -313,7 +313,7 @@ def run(sunder, layer, towns, rows, change=same, rings=AS_IS, backwards=False, t
     if backwards:
         features.reverse()
     write_geojson("l.geojson", features)
-    words = [sunder, "separate", "l.geojson", "o.gpkg", "--overwrite", "-q", "--allow-conflicts", "--output-layer", "l",
+    words = [sunder, "separate", "l.geojson", "o.gpkg", "--overwrite", "-q", "--ease", "no", "--allow-conflicts", "--output-layer", "l",
              "--threads", str(threads), "--stats", "o.json", "--rows", "auto" if rows else "no"] + layer.words
     lines = [{"type": "Feature", "properties": {}, "geometry": g} for g in lines_as_written(layer, towns, change)]
     if lines:

@@ -48,7 +48,7 @@ def run(sunder, gap, houses, fixed, limit, rows="auto"):
     write_geojson("v.geojson", [{"type": "Feature", "id": k + 1, "properties": {"fixed": int(f)},
                                  "geometry": {"type": "Polygon", "coordinates": [[list(p) for p in h + h[:1]]]}}
                                 for k, (h, f) in enumerate(zip(houses, fixed)) if h])
-    words = [sunder, "separate", "v.geojson", "v.gpkg", "--overwrite", "-q", "--allow-conflicts", "--output-layer", "v", "--gap", repr(gap),
+    words = [sunder, "separate", "v.geojson", "v.gpkg", "--overwrite", "-q", "--ease", "no", "--allow-conflicts", "--output-layer", "v", "--gap", repr(gap),
              "--max-shift", repr(limit), "--fixed-where", "fixed = 1", "--rows", rows, "--no-blocks", "--proof", "v.jsonl"]
     done = subprocess.run(words, capture_output=True, text=True, check=False)
     if done.returncode:

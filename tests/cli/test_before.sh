@@ -49,7 +49,7 @@ expect 3 check moved.gpkg rows.gpkg --before in.gpkg --max-shift-field far --id-
 same "$(awk -F'\t' '$7 == "limit" { printf "%s %s %.6g %s\n", $1, $2, $9, $12 }' out | tr '\n' ';')" '3 30 3 2;5 50 0.25 0;'
 same "$(count rows.gpkg houses_conflicts)" 5
 same "$(jq -c '.moves' s.json)" \
-    '{"matched":5,"worse":1,"limit":2,"side":0,"jump":0,"not_a_translate":1,"lost":0}'
+    '{"matched":5,"worse":1,"limit":2,"side":0,"jump":0,"not_a_translate":1,"row":0,"lost":0}'
 says out 'since in.gpkg: 5 matched, worse 1'
 expect 3 check moved.gpkg --stats s.json
 same "$(jq -c 'has("moves")' s.json)" false

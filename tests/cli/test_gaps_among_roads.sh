@@ -6,7 +6,7 @@
 command -v jq >/dev/null || { echo "skipped: no jq"; exit 77; }
 
 town=$SUNDER_SOURCE/datasets-synthetic/town.gpkg
-expect 3 separate "$town" out.gpkg --quiet --input-layer buildings --gap 4 --max-shift 3 --barrier "$town,layer=roads,width=8" \
+expect 3 separate "$town" out.gpkg --quiet --rows no --ease no --input-layer buildings --gap 4 --max-shift 3 --barrier "$town,layer=roads,width=8" \
     --trace trace.jsonl --stats stats.json
 wide=$(grep '"need_gap"' trace.jsonl | grep -c 'a larger gap may have a solution')
 proved=$(grep '"need_gap"' trace.jsonl | grep -c 'proved: the largest gap')

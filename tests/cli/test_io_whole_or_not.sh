@@ -11,7 +11,7 @@ refused_squares() { refused "$1" "$2" separate "${@:3}"; }
 
 # ---- one file
 separate squares.gpkg out.gpkg
-[ "$(layers out.gpkg)" = 'layer_styles squares squares_conflicts squares_displacement squares_pushes ' ] || fail "layers: $(layers out.gpkg)"
+[ "$(layers out.gpkg)" = 'layer_styles squares squares_conflicts squares_displacement squares_pushes squares_rows ' ] || fail "layers: $(layers out.gpkg)"
 before=$(sum out.gpkg)
 refused_squares 1 'exists already' squares.gpkg out.gpkg
 [ "$(sum out.gpkg)" = "$before" ] || fail "a refused run changed the output"
@@ -22,15 +22,15 @@ separate --overwrite --layers main squares.gpkg out.gpkg
 # ---- --update
 refused_squares 1 'has a layer squares already' --update squares.gpkg out.gpkg
 separate --update --output-layer apart squares.gpkg out.gpkg
-[ "$(layers out.gpkg)" = 'apart apart_conflicts apart_displacement apart_pushes layer_styles squares ' ] || fail "layers: $(layers out.gpkg)"
+[ "$(layers out.gpkg)" = 'apart apart_conflicts apart_displacement apart_pushes apart_rows layer_styles squares ' ] || fail "layers: $(layers out.gpkg)"
 ogrinfo -q -ro out.gpkg -sql 'SELECT f_table_name FROM layer_styles' >styles
-[ "$(grep -c 'f_table_name (String) = ' styles)" = 5 ] || fail "not every layer has a style"
+[ "$(grep -c 'f_table_name (String) = ' styles)" = 6 ] || fail "not every layer has a style"
 refused_squares 2 'no_such' --update --output-layer apart --overwrite-layer --where 'no_such = 1' squares.gpkg out.gpkg
 separate --update --overwrite-layer --output-layer apart --where "name <> 'two'" squares.gpkg out.gpkg
 [ "$(ogrinfo -ro -so out.gpkg apart | sed -n 's/^Feature Count: //p')" = 2 ] || fail "--overwrite-layer kept the old layer"
 [ "$(ogrinfo -ro -so out.gpkg squares | sed -n 's/^Feature Count: //p')" = 3 ] || fail "--overwrite-layer touched another"
 ogrinfo -q -ro out.gpkg -sql 'SELECT f_table_name FROM layer_styles' >styles
-[ "$(grep -c 'f_table_name (String) = ' styles)" = 5 ] || fail "styles of a replaced layer stay"
+[ "$(grep -c 'f_table_name (String) = ' styles)" = 6 ] || fail "styles of a replaced layer stay"
 
 # ---- input and output
 before=$(sum squares.gpkg)
@@ -41,7 +41,7 @@ refused_squares 1 'the same' --overwrite squares.gpkg alias.gpkg
 refused_squares 1 'input itself' --update --overwrite-layer squares.gpkg squares.gpkg
 [ "$(sum squares.gpkg)" = "$before" ] || fail "a refused run changed the input"
 separate --update --output-layer apart squares.gpkg squares.gpkg
-[ "$(layers squares.gpkg)" = 'apart apart_conflicts apart_displacement apart_pushes layer_styles lines squares ' ] ||
+[ "$(layers squares.gpkg)" = 'apart apart_conflicts apart_displacement apart_pushes apart_rows layer_styles lines squares ' ] ||
     fail "layers: $(layers squares.gpkg)"
 
 # ---- several files: Shapefile

@@ -22,10 +22,12 @@ case $row in *'row (Integer64) = 1 '*'houses (Integer64) = 5 '*'kink_bef (Real) 
 [ "$(ogrinfo -q -sql 'SELECT count(*) AS n FROM layer_styles WHERE f_table_name = "street_rows"' o.gpkg | grep -c 'n (Integer) = 1')" = 1 ] ||
     fail "the layer of rows has no style"
 
-# Without the option there is no layer of rows, and no statistics about them.
-expect 0 separate street.gpkg plain.gpkg --gap 3 --stats plain.json
-ogrinfo -q plain.gpkg | grep -q rows && fail "rows, unasked"
-[ "$(jq .rows plain.json)" = null ] || fail "figures of rows, unasked"
+# With --rows no there is no layer of rows, and no statistics about them. The default is auto.
+expect 0 separate street.gpkg plain.gpkg --gap 3 --rows no --stats plain.json
+ogrinfo -q plain.gpkg | grep -q rows && fail "rows, though none are wanted"
+[ "$(jq .rows plain.json)" = null ] || fail "figures of rows, though none are wanted"
+expect 0 separate street.gpkg usual.gpkg --gap 3 --stats usual.json
+same "$(jq -c .displacement usual.json)" "$(jq -c .displacement o.json)" "without the option:"
 expect 0 separate street.gpkg main.gpkg --gap 3 --rows auto --layers main
 ogrinfo -q main.gpkg | grep -q rows && fail "a layer of rows, though only the main layer was requested"
 
@@ -42,7 +44,7 @@ for words in '' '--max-shift 0.1' '--max-shift 0.1 --max-memory 1G'; do
     [ "$(jq -c '.rows | [.rows, .features]' huts.json)" = '[1,3]' ] || fail "huts, $words: $(jq -c .rows huts.json)"
 done
 
-# Twelve houses 1 m apart have to be 5 m apart. Without --rows they move to alternating sides; with it they stay a row.
+# Twelve houses 1 m apart have to be 5 m apart. With --rows no they move to alternating sides; otherwise they stay a row.
 {
     echo "WKT,w"
     for k in {0..11}; do
@@ -51,7 +53,7 @@ done
     done
 } | layer twelve.gpkg twelve POLYGON
 expect 0 separate twelve.gpkg row.gpkg --gap 5 --rows auto --stats row.json
-expect 0 separate twelve.gpkg free.gpkg --gap 5 --stats free.json
+expect 0 separate twelve.gpkg free.gpkg --gap 5 --rows no --stats free.json
 # Each gap has to grow by e = 4 m: the cost is e^2 n (n^2 - 1) / 12 = 2288, the outermost houses move 22 m, and each of
 # eleven springs costs 0.3 e^2.
 jq -e '(.displacement.cost_moves - 2288 | fabs) < 1e-6 and (.displacement.cost_rows - 52.8 | fabs) < 1e-6 and
@@ -124,7 +126,8 @@ expect 0 check row.gpkg --no-blocks --block-field sunder_blk --gap 5 --rows auto
 [ "$(jq .moves.row check.json)" = 0 ] || fail "the row is broken: $(cat out)"
 expect 3 check free.gpkg --no-blocks --block-field sunder_blk --gap 5 --rows auto --before twelve.gpkg --stats check.json
 [ "$(jq .moves.row check.json)" -gt 3 ] || fail "broken rows are not found: $(cat out)"
-expect 0 check free.gpkg --no-blocks --block-field sunder_blk --gap 5 --before twelve.gpkg
+expect 0 check free.gpkg --no-blocks --block-field sunder_blk --gap 5 --rows no --before twelve.gpkg
+expect 3 check free.gpkg --no-blocks --block-field sunder_blk --gap 5 --before twelve.gpkg
 expect 2 check free.gpkg --gap 5 --rows auto
 
 # A row that cannot become longer, between a fixed house and one that may move 1 m: the run ends.
@@ -140,7 +143,7 @@ expect 3 separate tight.gpkg t.gpkg --gap 5 --max-shift-field most --rows auto -
 # Refused: points, the layer of rows without the option, proofs.
 printf 'WKT,w\n"POINT(0 0)",1\n' | layer points.gpkg points POINT
 expect 2 separate points.gpkg p.gpkg --symbol square:1 --rows auto
-expect 2 separate street.gpkg p.gpkg --gap 3 --layers rows
+expect 2 separate street.gpkg p.gpkg --gap 3 --rows no --layers rows
 expect 0 separate street.gpkg proved.gpkg --gap 3 --rows auto --proof p.jsonl
 [ "$(grep -c '^{"row":' p.jsonl)" = 4 ] || fail "the proof does not name the four pairs of neighbours"
 [ ! -e p.gpkg ] || fail "an output of a refused run"

@@ -8,7 +8,7 @@
 command -v python3 >/dev/null || { echo "skipped: no python3"; exit 77; }
 
 "$SUNDER_BUILD/sunder-town" --buildings 120 --seed 3 --trouble 0.8 town.gpkg >/dev/null || fail "sunder-town"
-run separate town.gpkg o.gpkg -q -l buildings --gap 3 --max-shift 5 --effort 0 --barrier "town.gpkg,layer=roads,width=5"
+run separate town.gpkg o.gpkg -q --rows no --ease no -l buildings --gap 3 --max-shift 5 --effort 0 --barrier "town.gpkg,layer=roads,width=5"
 [ "$status" = 3 ] || fail "status $status"
 
 # left WHERE: the number of conflicts

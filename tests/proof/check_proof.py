@@ -41,7 +41,7 @@ def read_options(words):
     parser.add_argument("--contained")
     parser.add_argument("--invalid", default="repair")
     parser.add_argument("--weight", default="1")
-    parser.add_argument("--rows", choices=("auto", "no"), default="no")
+    parser.add_argument("--rows", choices=("auto", "no"), help="auto unless said; no for points")
     parser.add_argument("--row-stiffness", default="3,0.3")
     parser.add_argument("--no-blocks", action="store_true")
     parser.add_argument("--allow-jumps", action="store_true")
@@ -50,6 +50,7 @@ def read_options(words):
     options = parser.parse_args(words)
     options.points = bool(options.symbol or options.symbol_field)  # symbols may always jump
     options.allow_jumps = options.allow_jumps or options.points
+    options.rows = options.rows or ("no" if options.points else "auto")
     stiffness = list(map(float, options.row_stiffness.split(",")))
     options.row_stiffness = (stiffness + [0.3])[:2] if options.rows == "auto" else None
     options.contained = options.contained or ("separate" if options.points else "block")

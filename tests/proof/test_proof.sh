@@ -15,10 +15,18 @@ of() {
     [[ " $* " != *" --sql "* ]] || named=()
 }
 
+# without_rows OPTIONS...: sets `asked` to these, and --rows no unless they say what rows there are
+without_rows() {
+    asked=("$@")
+    [[ " $* " == *" --rows "* ]] || asked+=(--rows no)
+}
+
 # proved NAME SOURCE OPTIONS...: separates and checks the proof, with --layer buildings
 proved() {
     local name=$1 source=$2
     shift 2
+    without_rows "$@"
+    set -- "${asked[@]}"
     of buildings "$@"
     "$SUNDER" separate "$source" o.gpkg --overwrite -q "${named[@]}" --layers main,displacement,conflicts --proof "$name.jsonl" "$@" 2>err
     case $? in 0 | 3) ;; *) fail "$name: status $?" ;; esac
@@ -30,6 +38,8 @@ proved() {
 refuted() {
     local name=$1 source=$2
     shift 2
+    without_rows "$@"
+    set -- "${asked[@]}"
     python3 "$here/mutations.py" "$name.jsonl" "$source" --layer buildings "$@" >said 2>kinds || fail "$name: $(cat said)"
     cat kinds
 }
@@ -38,6 +48,8 @@ refuted() {
 strange() {
     local name=$1 source=$2
     shift 2
+    without_rows "$@"
+    set -- "${asked[@]}"
     of buildings "$@"
     python3 "$here/check_proof.py" "$name.jsonl" "$source" "${named[@]}" "$@" >said 2>&1
     [ $? = 1 ] && grep -q '^refused: ' said || fail "$name for $source $*: $(cat said)"
@@ -95,7 +107,7 @@ same_bound() { # NAME SOURCE OPTIONS...
     shift 2
     proved "$name" "$source" "$@"
     "$SUNDER" separate "$source" o.gpkg --overwrite -q -l buildings --stats with.json --proof "$name.jsonl" "$@" 2>err
-    "$SUNDER" separate "$source" o.gpkg --overwrite -q -l buildings --stats without.json "$@" 2>err
+    "$SUNDER" separate "$source" o.gpkg --overwrite -q -l buildings --stats without.json --ease no "$@" 2>err
     set -- $(for file in with.json without.json "$name.jsonl"; do grep -Eo "\"$told\": [^,]*" $file | head -1 | cut -d ' ' -f 2; done)
     [ "$1" != 0 ] && [ "$1" = "$2" ] && [ "$1" = "$3" ] || fail "the bound of $name with a proof, without one, and in it: $*"
 }

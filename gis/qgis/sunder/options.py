@@ -106,11 +106,11 @@ OPTIONS = (
     # ---- Rows ----
     Option("--rows", TEXT, LAYERS, "Rows of houses keep their line",
            "Neighbours in a row keep their order, and stay in line as far as the stiffness outweighs the moves. auto: rows "
-           "are found in the layer; a field: equal values, not null, are one row; empty: no rows.", ""),
+           "are found in the layer; a field: equal values, not null, are one row; no: no rows; empty: auto, and none for points.", ""),
     Option("--row-stiffness", TEXT, ("separate",), "Stiffness of rows against kinks, and against uneven spacing",
            "Two factors of the cost of a move. 3,0.3: as usual; 10,1: stiff.", ""),
     Option("--ease", TEXT, ("separate",), "Price of what pairs that remain in conflict lack",
-           "A number above 0: they come as near to their distance as it pays for; 30 is usual.", ""),
+           "A number above 0: they come as near to their distance as it pays for; no: they are not eased; empty: 30.", ""),
     # ---- Symbols ----
     Option("--symbol", TEXT, LAYERS, "Points: the symbol at each point",
            "disc:4m, square:5m, rectangle:8x3, or WKT of a polygon relative to the point."),
