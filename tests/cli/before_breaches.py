@@ -1,5 +1,5 @@
-"""Violates each rule of a separated layer ten times (by one unit in the last place if the rule is about a length),
-and checks that `sunder check --before` reports every violation:
+"""Violates each rule of a separated layer ten times (by one unit in the last place if the rule is about a length; by
+2^-20 if it is about the direction of a row), and checks that `sunder check --before` reports every violation:
 
     python3 before_breaches.py SUNDER SOURCE LAYER ROADS GAP LIMIT
 
@@ -16,12 +16,13 @@ from fractions import Fraction
 from osgeo import gdal, ogr
 
 import exact_plane as plane
+import row_breaches
 import rules_layers
 
 gdal.UseExceptions()
 ogr.UseExceptions()
 gdal.SetConfigOption("OGR_SQLITE_SYNCHRONOUS", "OFF")
-MOVES = ("worse", "limit", "side", "jump", "not_a_translate", "lost")
+MOVES = ("worse", "limit", "side", "jump", "not_a_translate", "row", "lost")
 WANTED = 10
 NEAR = 30.0  # neighbours and roads up to this distance from a feature are considered, in units of the layer
 
@@ -75,12 +76,14 @@ class Town:
         self.result, self.written = rules_layers.open_layer(result, layer)
         words = rules_layers.split_spec(roads)
         self.road_source, self.roads = rules_layers.open_layer(words["path"], words["layer"])
+        self.row_source, self.rows = rules_layers.open_layer(result, layer + "_rows")
         lines_source, lines = rules_layers.open_layer(result, layer + "_displacement")
         self.anchor = {f.GetField("fid"): f.GetGeometryRef().GetPoints()[0] for f in lines}
         del lines_source
-        self.block, self.move = {}, {}
+        self.block, self.members, self.move = {}, {}, {}
         for f in self.written:
-            self.block[f.GetFID()] = f.GetField("sunder_blk")
+            self.block[f.GetFID()] = block = f.GetField("sunder_blk")
+            self.members[block] = self.members.get(block, ()) + (f.GetFID(),)
             self.move[f.GetFID()] = Fraction(f.GetField("sunder_dx") or 0.0), Fraction(f.GetField("sunder_dy") or 0.0)
 
     def geometry(self, fid):
@@ -95,15 +98,21 @@ class Town:
     def alone(self, fid):
         return self.block[fid] is None
 
-    def near(self, layer, fid):
+    def body(self, fid):
+        return (fid,) if self.alone(fid) else self.members[self.block[fid]]
+
+    def near(self, layer, fid, reach=NEAR):
         x0, x1, y0, y1 = self.geometry(fid).GetEnvelope()
-        layer.SetSpatialFilterRect(x0 - NEAR, y0 - NEAR, x1 + NEAR, y1 + NEAR)
+        layer.SetSpatialFilterRect(x0 - reach, y0 - reach, x1 + reach, y1 + reach)
         found = {f.GetFID(): f.GetGeometryRef().Clone() for f in layer if f.GetGeometryRef()}
         layer.SetSpatialFilter(None)
         return found
 
-    def road_edges(self, fid):
-        return [e for g in self.near(self.roads, fid).values() for e in outline(g).edges if e[0] != e[1]]
+    def road_edges(self, fid, reach=NEAR):
+        return [e for g in self.near(self.roads, fid, reach).values() for e in outline(g).edges if e[0] != e[1]]
+
+    def are_too_near(self, fid, other):
+        return plane.nearer(*(outline(self.geometry(f)) for f in (fid, other)), self.gap)
 
 
 # ---- Violations: each gives the FIDs that must be reported, and the new geometries by FID (None: removed)
@@ -220,6 +229,18 @@ def worse(town, fid):
                 return
 
 
+def row(town, fid):
+    """Puts a body beyond its place in its row, whose next body is back at its original place. A body is named by its first member.
+    Features away from LAYER_rows are left out to save time."""
+    if not town.near(town.rows, fid, 0.0):
+        return
+    unit = unit_of(town.geometry(fid))
+    for other, t in row_breaches.moves_beyond(town, fid):
+        t = tuple(to_unit(v, unit) for v in t)
+        places = {f: moved(town.geometry(f), t) for f in town.body(fid)}
+        yield (town.body(fid)[0], other[0]), {**places, **{f: town.geometry(f) for f in other}}
+
+
 def plant(town, rule, draw):
     """Up to WANTED violations, with different features: the FIDs that must be reported, and all new geometries."""
     named, changed = [], {}
@@ -283,7 +304,7 @@ def main():
     if found:
         trouble += 1
         print(f"the layer as written: {len(found)} breaches: {sorted((k, sorted(v)) for k, v in found)[:5]}")
-    for rule in (lost, not_a_translate, limit, side, jump, worse):
+    for rule in (lost, not_a_translate, limit, side, jump, row, worse):
         wanted, changed = plant(town, rule, random.Random(7))
         write(town, changed, "p.gpkg")
         found, _ = ask("p.gpkg")

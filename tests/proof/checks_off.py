@@ -34,8 +34,10 @@ ENDLESS = {"a node has two parents:"}  # without this test the search would not 
 UNSEEN = {
     "a side, where there is no limit": "of two anchors that lines shut in, but for a narrow way far away: no case is made",
     "a rule without a row": "a run without --rows has no words for rows in its file",
+    "a length for those without a limit, with the reason": "without sides and jumps the pair gets apart within such a length, so no nodes reach it",
     "a row without a limit:": "no run has neighbours of which one has a limit and a verdict needs their row",
     "these are no neighbours in a row:": "a line that no statement uses makes none false; rows_proofs.py changes lines that are used",
+    "neighbours in a row are missing:": "a file that leaves out neighbours proves its claims without their rule and springs, which is harder",
     "there is no rule for those that do not stand apart:": "no run has neighbours that overlap along their row",
 }
 

@@ -234,6 +234,14 @@ case("chord-between-two-ends", "before the corner", LAYER, [conflict(1, 2, "no_r
            shadow=True, c="bow:2", side_b=[[6, 5], [6, 66]], side_c=[[40, 5], [40, -2500]])], leaf((0, 0, 2059), (1, 0))))],
      {2: (8, -0.5)}, barriers={"bow": ({1: line((6, 5), (6, 66)), 2: line((40, 5), (40, -2500))}, "")})
 
+# Two lines with sides whose ends lie on no ray from the anchor: between them the house passes.
+case("chord-across-a-door", "no corner, nor a ray", LAYER, [conflict(1, 2, "no_room", blocked_by=["bow:1", "bow:2"], proof=chain(
+    [asked(1, 2, part(LAYER[1]), part(LAYER[2]), ways_out(-26, -50, 8, 50), clearance=0),
+     asked(2, "bow:1", [[5, 5]], [[11, 64], [11, -54]],
+           [((1, 0), -6), ((59, 6), 0, leaf((0, 0, 59), (1, 1))), ((59, -6), 0, leaf((0, 0, 59), (1, 2)))],
+           shadow=True, c="bow:2", side_b=[[10, 7], [10, 66]], side_c=[[10, 3], [10, -56]])], leaf((0, 0), (1, 0))))],
+     {2: (8, 0)}, barriers={"bow": ({1: line((10, 7), (10, 66)), 2: line((10, 3), (10, -56))}, "")})
+
 
 # ---- A file whose second reading differs from the first: first the content of limits-that-suffice, then less
 
