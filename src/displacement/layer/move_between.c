@@ -3,17 +3,14 @@
  *
  * If some t makes every sum x + t exact, it is the move: no vertex was rounded. This t is tried first, since a shorter
  * t that rounds to the same vertices would hide a rule broken by a unit in the last place. If sums were rounded, each
- * vertex allows an interval of t, about as wide as a unit in the last place of x + t. Candidates are the ends and the
- * middle of the common interval of all vertices, and the difference at the vertex with the smallest unit. The shortest
- * candidate that fits is the move, so that rounding alone never counts as a broken rule. Each candidate is tested at
- * every vertex. */
+ * vertex allows an interval of doubles t, since the rounded sum never decreases as t grows. The move is the shortest t
+ * that all vertices allow, so that rounding alone never counts as a broken rule. */
 #include "displacement/layer/rounding.h"
 
 #include "shape/shape.h"
 
-#include "base/extremes.h"
-
 #include <math.h>
+#include <stdint.h>
 #include <string.h>
 
 /* Do the two shapes have the same numbers of polygons, rings and vertices? */
@@ -52,43 +49,51 @@ static bool is_exact_move(const coordinates *k, double t)
     return true;
 }
 
-/* Sets [*low, *high] approximately to the moves that all vertices allow: a sum is rounded to x' if it is within half a
- * unit of x'. *finest is the difference at the vertex with the smallest coordinates. */
-static void find_common(const coordinates *k, double *low, double *high, double *finest)
+/* The r-th double above zero, or below it for a negative r. */
+static double double_of_rank(int64_t r)
 {
-    double least = INFINITY;
-    *low = -INFINITY;
-    *high = INFINITY;
-    *finest = 0;
-    for (size_t v = 0; v < k->n; v++) {
-        const double x = k->before[2 * v + k->c], y = k->after[2 * v + k->c], size = sunder_i_max(fabs(x), fabs(y));
-        *low = sunder_i_max(*low, (y - x) - (y - nextafter(y, -INFINITY)) / 2);
-        *high = sunder_i_min(*high, (y - x) + (nextafter(y, INFINITY) - y) / 2);
-        if (!(size < least)) continue;
-        least = size;
-        *finest = y - x;
+    const int64_t bits = r < 0 ? INT64_MIN - r : r;
+    double t;
+    memcpy(&t, &bits, sizeof t);
+    return t;
+}
+
+/* Returns the least double t with x + t >= y in doubles, by bisection; infinity if there is none. */
+static double least_to_reach(double x, double y)
+{
+    const double infinity = INFINITY;
+    int64_t low, high;
+    memcpy(&high, &infinity, sizeof high);
+    for (low = -high; high - 1 > low;) {
+        const int64_t middle = low / 2 + high / 2 + (low % 2 + high % 2) / 2;
+        if (x + double_of_rank(middle) >= y)
+            high = middle;
+        else
+            low = middle;
     }
+    return double_of_rank(high);
+}
+
+/* Returns the least t that takes each coordinate to its new place or beyond; after a reflection if sign is -1. */
+static double least_move(const coordinates *k, double sign)
+{
+    double t = -INFINITY;
+    for (size_t v = 0; v < k->n; v++) {
+        const double x = sign * k->before[2 * v + k->c], y = sign * k->after[2 * v + k->c];
+        if (!(x + t >= y)) t = least_to_reach(x, y);
+    }
+    return t;
 }
 
 static bool find_along(const coordinates *k, double *t)
 {
-    double low, high, finest;
     *t = 0;
     if (is_move(k, 0)) return true;
-    find_common(k, &low, &high, &finest);
-    if (is_exact_move(k, finest)) {
-        *t = finest;
-        return true;
-    }
-    const double near = fabs(low) < fabs(high) ? low : high, far = near == low ? high : low;
-    const double tried[] = {near, nextafter(near, far), finest, low + (high - low) / 2, nextafter(far, near), far};
-    bool found = false;
-    for (size_t i = 0; i < sizeof tried / sizeof *tried; i++) {
-        if (!is_move(k, tried[i]) || (found && fabs(tried[i]) >= fabs(*t))) continue;
-        *t = tried[i];
-        found = true;
-    }
-    return found;
+    *t = k->after[k->c] - k->before[k->c];
+    if (is_exact_move(k, *t)) return true;
+    const double low = least_move(k, 1), high = -least_move(k, -1);
+    *t = low > 0 ? low : high;
+    return low <= high && isfinite(*t);
 }
 
 bool sunder_i_move_between(const sunder_shape *before, const sunder_shape *after, double t[2])
