@@ -1,7 +1,7 @@
 /* The move between two places of a shape whose coordinates were rounded: triangles far from the origin and near to it,
  * on both sides of powers of two, moved by any double, by multiples of a unit in the last place, and by odd multiples
- * of half a unit, where sums are ties. A move is always found, and it rounds all vertices to their new places. It is the
- * drawn move if that is exact at all vertices; otherwise it is exact, or no longer than the drawn move. */
+ * of half a unit, where sums are ties. A move is always found, and it rounds all vertices to their new places. It is
+ * the drawn move if that is exact at all vertices; otherwise it is exact, or no longer than the drawn move. */
 #include "random.h"
 
 #include "displacement/layer/rounding.h"
