@@ -181,6 +181,7 @@ static const sunder_i_layer_stage passes[] = {
     {"ease", has_price, sunder_i_solver_ease, 1, 0, 0},
     {"gather groups", has_no_effort, sunder_i_solver_gather_groups, 1, 0, 0},
     {"gather", NULL, sunder_i_solver_gather, 1, 0, 0},
+    {"return home", NULL, sunder_i_solver_return_home, 1, 0, 0},
 };
 
 sunder_status sunder_i_layer_solve(sunder_i_solver *solver, sunder_error *err)

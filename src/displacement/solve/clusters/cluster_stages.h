@@ -179,6 +179,9 @@ sunder_status sunder_i_solver_ease(sunder_i_solver *solver, sunder_error *err);
 /* After contact groups were gathered: moves wanted groups that have moved to places in contact without a margin, if
  * doubles can represent these, they cost less, and they pass the exact check. */
 sunder_status sunder_i_solver_put_in_contact(sunder_i_solver *solver, sunder_error *err);
+/* After clusters were gathered: sends home the bodies whose moves are as short as margins, if they pass the exact check
+ * there. */
+sunder_status sunder_i_solver_return_home(sunder_i_solver *solver, sunder_error *err);
 
 /* ---- contact_groups.c -------------------------------------------------------------------------------------------- */
 

@@ -1,14 +1,19 @@
-/* Contact without a margin.
+/* Contact without a margin, and bodies that a margin alone has moved.
  *
  * The search demands a margin beyond the distances owed, to cover rounding, and bodies stand that much too far apart.
  * Where coordinates and distances are multiples of a step that is coarse compared with rounding, doubles can represent
  * places in exact contact, and rows of bodies in contact are moved there (../../prove/optimum/tight_place.c). A contact
  * group takes these places if they cost less and hold exactly (trial.c). Two isolated features are in contact already
- * (../search/lone_pair.c). */
+ * (../search/lone_pair.c).
+ *
+ * The margins of its neighbours push a body from home that has nothing to gain. When no neighbour needs its margin any
+ * more, since coordinates are rounded or a neighbour stands in exact contact, it returns home. */
 #include "displacement/prove/optimum/optimum.h"
 #include "displacement/solve/clusters/cluster_stages.h"
 #include "displacement/solve/clusters/trial.h"
+#include "displacement/solve/clusters/tuning.h"
 
+#include <math.h>
 #include <string.h>
 
 /* Computes places in exact contact for the group's bodies; *found if there are any. move: [2 * n] the present moves,
@@ -75,6 +80,49 @@ sunder_status sunder_i_solver_put_in_contact(sunder_i_solver *solver, sunder_err
         const sunder_i_group *g = &solver->groups.group[k];
         if (sunder_i_solver_any_of(solver, g->body, g->n, sunder_i_is_wanted) && has_moved(&solver->model, g))
             status = put_group_in_contact(solver, g, err);
+    }
+    return status;
+}
+
+/* ---- Home again -------------------------------------------------------------------------------------------------- */
+
+static bool is_hardly_moved(const sunder_i_model *model, const sunder_i_cluster *c, uint32_t body)
+{
+    const double *t = model->move + 2 * (size_t)body, far = hypot(t[0], t[1]);
+    return far > 0 && far <= HARDLY * c->margin && sunder_i_may_move(&model->body[body]);
+}
+
+/* Tries to send home body `only`, or all bodies of the cluster that hardly moved. *well: whether that was possible. */
+static sunder_status send_home(sunder_i_solver *s, const sunder_i_cluster *c, uint32_t only, bool *well,
+                               sunder_error *err)
+{
+    const double home[2] = {0, 0};
+    bool ok = true;
+    sunder_i_trial t = {.solver = s, .along = 3, .whole_rows = true};
+    for (size_t k = 0; k < c->n && ok; k++)
+        if (is_hardly_moved(&s->model, c, c->body[k]) && (only == SUNDER_I_NOBODY || only == c->body[k]))
+            ok = sunder_i_trial_take(&t, c->body[k]);
+    sunder_status status = ok ? SUNDER_OK : sunder_i_failure_cause(err);
+    if (!status && t.n) status = sunder_i_trial_place(&t, home, err);
+    *well = t.well || t.n == 0;
+    sunder_i_trial_free(&t);
+    return status;
+}
+
+sunder_status sunder_i_solver_return_home(sunder_i_solver *solver, sunder_error *err)
+{
+    sunder_status status = SUNDER_OK;
+    for (size_t k = 0; k < solver->clusters && !status; k++) {
+        const sunder_i_cluster *c = &solver->cluster[k];
+        bool well;
+        sunder_i_reading reading;
+        sunder_i_reads_begin(&reading, &solver->model, sunder_i_reader_for(solver, c));
+        status = send_home(solver, c, SUNDER_I_NOBODY, &well, err);
+        for (size_t m = 0; m < c->n && !well && !status; m++) {
+            bool ignored;
+            status = send_home(solver, c, c->body[m], &ignored, err);
+        }
+        sunder_i_reads_end(&reading);
     }
     return status;
 }

@@ -6,7 +6,7 @@
 
 /* SUNDER_I_CLUSTERS_TUNING_VERSION is the version of the values below. It is raised with each change of a value, so
  * that a record can name the values by their version (tests/house/TUNING). */
-#define SUNDER_I_CLUSTERS_TUNING_VERSION 9
+#define SUNDER_I_CLUSTERS_TUNING_VERSION 10
 
 /* ---- Rounds (settle.c, clusters.c) ------------------------------------------------------------------------------- */
 
@@ -92,6 +92,11 @@
 #define ALONE_REGAINED 4
 /* A pair that is solved by itself keeps MARGINS times the margin of its cluster. */
 #define MARGINS 4
+
+/* ---- Bodies that a margin alone has moved (in_contact.c) --------------------------------------------------------- */
+
+/* A move of at most HARDLY margins may be due to margins: those of a chain of neighbours add up. */
+#define HARDLY 64
 
 /* ---- Lone bodies (lone_bodies.c) --------------------------------------------------------------------------------- */
 
