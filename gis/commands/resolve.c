@@ -130,12 +130,6 @@ static bool resolve_rows(const gis_options *options, gis_layer_rules *out, gis_e
     return gis_fail_usage(error, "--rows: rows are found among polygons, and the symbols of points have none");
 }
 
-bool gis_resolve_in_parts(const gis_layer_rules *rules, gis_error *error)
-{
-    return !rules->has_least_gap ||
-           gis_fail_usage(error, "a least gap needs the whole layer in memory: neither plan nor --max-memory");
-}
-
 /* Reads K or K,K_ALONG; K alone keeps the default along rows. */
 static bool resolve_stiffness(const gis_options *options, double stiffness[2], gis_error *error)
 {
@@ -239,7 +233,7 @@ static bool resolve_least_gaps(const gis_options *options, gis_layer_input_reque
             return gis_fail_usage(error, "--barrier %s: least=%s: there is neither gap= nor --gap", barrier->dataset,
                                   barrier->least.text);
     }
-    if (!rules->has_least_gap || options->command->bit != GIS_SEPARATE) return true;
+    if (!rules->has_least_gap || options->command->bit == GIS_CHECK) return true;
     if (options->given[OPT_PROOF])
         return gis_fail_usage(error, "--proof: a proof cannot name what pairs lack; leave out the least gap");
     if (options->text[OPT_EASE] && !(rules->core.ease > 0))

@@ -33,8 +33,6 @@ bool gis_resolve_buffer(const gis_options *options, gis_buffer_request *out, gis
  * failure, too. */
 bool gis_resolve_route(const gis_options *options, gis_route_request *out, gis_error *error);
 
-/* Refuses the rules that do not hold for a layer that is separated in parts. */
-bool gis_resolve_in_parts(const gis_layer_rules *rules, gis_error *error);
 /* *bytes becomes the size of --max-memory in bytes; 0 if it was not given. */
 bool gis_resolve_memory(const gis_options *options, double *bytes, gis_error *error);
 /* The request of the output at `path`; `main_layer` is the name of the main layer unless --output-layer gives another

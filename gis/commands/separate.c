@@ -91,7 +91,6 @@ int gis_command_separate(const gis_options *options)
     const bool in_parts = ok && memory > 0;
     if (in_parts && run.to.trace)
         ok = gis_fail_usage(&error, "--trace needs the whole layer in memory; leave out --max-memory");
-    if (in_parts) ok = ok && gis_resolve_in_parts(&run.request.rules, &error);
     ok = ok && (in_parts ? read_in_parts(&run, memory, &error) : read_whole(&run, &error)) &&
          gis_destinations_spare(&run.to, run.input.source, &error);
     run.read = gis_clock() - run.start;

@@ -6,7 +6,7 @@
 const gis_option gis_option_table[OPT_N] = {
     [OPT_GAP] = {OPT_GAP, "--gap", GIS_TYPE_LENGTH, GIS_LAYERS | GIS_PAIR | GIS_ROUTE, OWN, "LENGTH", "0",
                  "least distance between features, in units of the layer"},
-    [OPT_LEAST_GAP] = {OPT_LEAST_GAP, "--least-gap", GIS_TYPE_LENGTH, GIS_SEPARATE | GIS_CHECK, OWN, "LENGTH", "--gap",
+    [OPT_LEAST_GAP] = {OPT_LEAST_GAP, "--least-gap", GIS_TYPE_LENGTH, GIS_LAYERS, OWN, "LENGTH", "--gap",
                        "pairs may stand between this and --gap, at a price; below it they conflict"},
     [OPT_BARRIER] = {OPT_BARRIER, "--barrier", GIS_TYPE_BARRIERS, GIS_LAYERS, OWN, "DATASET[,KEY=VALUE...]", NULL,
                      "layer to keep clear of, never moved: roads.gpkg,width=5,gap=1"},

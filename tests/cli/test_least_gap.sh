@@ -92,9 +92,4 @@ grep -q 'least=3: must not be greater than the gap, 2' err || fail "the message:
 expect 2 "${words[@]}" --barrier road.gpkg,least=-3
 expect 2 "${words[@]}" --least-gap 1 --ease no
 expect 2 "${words[@]}" --least-gap 1 --proof p.jsonl
-expect 2 "${words[@]}" --least-gap 1 --max-memory 1GB
-expect 2 "${words[@]}" --barrier road.gpkg,least=1 --max-memory 1GB
-expect 2 plan houses.gpkg plan --shards 2 --gap 10 --least-gap 1
-expect 2 plan houses.gpkg plan --shards 2 --gap 10 --barrier road.gpkg,least=1
-grep -q 'neither plan nor --max-memory' err || fail "the message: $(cat err)"
 finish

@@ -59,8 +59,12 @@ jq -e '.rows.rows > 50 and .displacement.cost_rows > 1' whole.json >/dev/null ||
 # Pairs that are eased.
 proof=()
 alike o.gpkg 99M --gap 4 --effort 0 --rows auto --max-shift 0.5 --ease 30
-proof=(--proof at/proof.jsonl)
 jq -e '.shortfall.pairs > 50' whole.json >/dev/null || fail "few are short: $(jq -c .shortfall whole.json)"
+
+# Pairs between a least gap and the gap.
+alike o.gpkg 99M --gap 4 --least-gap 1 --effort 0 --rows auto --max-shift 0.5
+proof=(--proof at/proof.jsonl)
+jq -e '.shortfall.tight > 50' whole.json >/dev/null || fail "few are tight: $(jq -c .shortfall whole.json)"
 
 # Barriers: roads through the whole layer with different widths, meadows, one that is near a feature only at one end,
 # and one that is near none.

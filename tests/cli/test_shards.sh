@@ -17,7 +17,7 @@ alike() {
     local name=$1 shards=$2 n k wanted=0 of_whole=(--proof whole.jsonl) of_parts=(--proof parts.jsonl)
     shift 2
     # There is no proof of eased pairs, nor of rows of a field.
-    case " $* " in *' --ease '* | *' --rows street '*) of_whole=() of_parts=() ;; esac
+    case " $* " in *' --ease '* | *least* | *' --rows street '*) of_whole=() of_parts=() ;; esac
     [ -e "$name.gpkg" ] || ogr2ogr -q "$name.gpkg" "$name.geojson" -nln houses || fail "$name.gpkg"
     rm -rf whole parts plan-*
     mkdir whole parts
@@ -68,6 +68,15 @@ cp whole.json eased.json
 alike great '5' --gap 2 --effort 0.05 --ease 10 --max-shift 4 --barrier line.geojson,width-field=width,gap=0.5
 alike chain '3' --gap 1 --effort 0 --ease 100 --block-field blk --contained separate --max-shift 2
 jq -e '.shortfall.pairs > 10 and .displacement.cost_alone > 1' eased.json >/dev/null || fail "little is short: $(cat eased.json)"
+# Pairs stand between a least gap and the gap: with room and without, where the least gap of the roads is another, where
+# only the roads have one, and among features that may not move.
+alike streets '2 7' --gap 4 --least-gap 1 --effort 0 --rows auto --max-shift 3 --barrier line.geojson,width-field=width,gap=0.5
+cp whole.json tight.json
+alike great '5' --gap 3 --least-gap 0.5 --effort 0.05 --max-shift 4 --barrier line.geojson,width-field=width,gap=2,least=0.1
+alike chain '3' --gap 0 --effort 0 --max-shift 2 --barrier line.geojson,width-field=width,gap=3,least=1
+alike clusters '6' --gap 4 --least-gap 2 --effort 0 --max-shift 1 --fixed-where 'fid % 3 > 0'
+jq -e '.shortfall.tight > 20 and .conflicts.after.overlap + .conflicts.after.too_close > 0' tight.json >/dev/null ||
+    fail "few tight pairs: $(cat tight.json)"
 jq -e '.rows.rows >= 8 and .rows.features > 200 and .displacement.cost_rows > 1' streets.json >/dev/null ||
     fail "few rows: $(jq -c .rows streets.json)"
 finish

@@ -195,7 +195,7 @@ static gis_spooled_barriers barriers_of(const town *t)
     gis_spooled_barriers spool = {0};
     gis_error error;
     if (t->barriers == 0) return spool;
-    assert_true(gis_barriers_create(scratch_directory(), t->how.gap, &writer, &error));
+    assert_true(gis_barriers_create(scratch_directory(), t->how.gap, t->how.gap, &writer, &error));
     for (size_t k = 0; k < t->barriers; k++) {
         const gis_spooled_barrier barrier = {2 * k, (int64_t)k, "roads", t->barrier[k]};
         assert_true(gis_barriers_add(writer, &barrier, &error));

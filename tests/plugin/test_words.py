@@ -51,18 +51,18 @@ class Words(unittest.TestCase):
 class Barriers(unittest.TestCase):
     def test_rows(self):
         self.assertEqual(rows_of(None), [])
-        self.assertEqual(rows_of(["", "", "", "", "", ""]), [])
-        self.assertEqual(rows_of(["roads", "5"]), [["roads", "5", "", "", "", ""]])
-        two = ["roads", "5", None, "", "", "", " water ", "", "1", "", "no", ""]
-        self.assertEqual(rows_of(two), [["roads", "5", "", "", "", ""], ["water", "", "1", "", "no", ""]])
-        self.assertEqual(len(BARRIER_COLUMNS), 6)
+        self.assertEqual(rows_of([""] * 7), [])
+        self.assertEqual(rows_of(["roads", "5"]), [["roads", "5", "", "", "", "", ""]])
+        two = ["roads", "5", None, "", "", "", "", " water ", "", "1", "", "", "no", ""]
+        self.assertEqual(rows_of(two), [["roads", "5", "", "", "", "", ""], ["water", "", "1", "", "", "no", ""]])
+        self.assertEqual(len(BARRIER_COLUMNS), 7)
 
     def test_a_row_without_a_layer_is_told(self):
         with self.assertRaisesRegex(BadValue, "no layer"):
-            rows_of(["", "5", "", "", "", ""])
+            rows_of(["", "5", "", "", "", "", ""])
 
     def text(self, *cells, unit="", fields=("width", "class")):
-        return barrier(list(cells) + [""] * (6 - len(cells)), unit, "/a/roads.gpkg", "roads", fields)
+        return barrier(list(cells) + [""] * (7 - len(cells)), unit, "/a/roads.gpkg", "roads", fields)
 
     def test_width_or_field(self):
         self.assertEqual(self.text("roads"), "/a/roads.gpkg,layer=roads")
@@ -74,24 +74,25 @@ class Barriers(unittest.TestCase):
         self.assertEqual(self.text("roads", "5", fields=("5",)), "/a/roads.gpkg,layer=roads,width-field=5")
 
     def test_all_of_it(self):
-        self.assertEqual(self.text("roads", "5", "1.5", "", "No", "Boundary", unit="m"),
-                         "/a/roads.gpkg,layer=roads,width=5m,gap=1.5m,side=no,as=boundary")
+        self.assertEqual(self.text("roads", "5", "1.5", "0.2mm", "", "No", "Boundary", unit="m"),
+                         "/a/roads.gpkg,layer=roads,width=5m,gap=1.5m,least=0.2mm,side=no,as=boundary")
 
     def test_layers_that_were_chosen(self):
-        self.assertEqual(row_of_layer("roads", {}), ["roads", "", "", "", "", ""])
+        self.assertEqual(row_of_layer("roads", {}), ["roads"] + [""] * 6)
         self.assertEqual(row_of_layer("roads", {"BARRIER_WIDTH": 6.0, "BARRIER_GAP": 0.5}),
-                         ["roads", "6", "0.5", "", "", ""])
+                         ["roads", "6", "0.5", "", "", "", ""])
         self.assertEqual(barrier(row_of_layer("roads", {"BARRIER_WIDTH": 0.0, "BARRIER_GAP": 1.5}), "m", "/r", "roads", ()),
                          "/r,layer=roads,width=0m,gap=1.5m")
         self.assertEqual(words("separate", {"BARRIER_WIDTH": 6.0, "BARRIER_GAP": 0.5}), [])
 
     def test_commas_in_names(self):
-        self.assertEqual(barrier(["x", "", "", "", "", ""], "", "/a,b/c.gpkg", "d,e", ()), "/a\\,b/c.gpkg,layer=d\\,e")
+        self.assertEqual(barrier(["x"] + [""] * 6, "", "/a,b/c.gpkg", "d,e", ()), "/a\\,b/c.gpkg,layer=d\\,e")
 
     def test_what_means_nothing_is_told(self):
         for cells, said in ((("roads", "wide"), "neither a width nor a field; its fields: width, class"),
-                            (("roads", "", "x"), "no length"), (("roads", "", "", "", "left"), "yes or no"),
-                            (("roads", "", "", "", "", "line"), "area or boundary")):
+                            (("roads", "", "x"), "no length"), (("roads", "", "", "x"), "no length"),
+                            (("roads", "", "", "", "", "left"), "yes or no"),
+                            (("roads", "", "", "", "", "", "line"), "area or boundary")):
             with self.assertRaisesRegex(BadValue, said):
                 self.text(*cells)
 

@@ -232,9 +232,10 @@ class SeparateTest(Case):
     def test_barriers(self):
         roads = QgsVectorLayer(TOWN + "|layername=roads", "Roads of the town", "ogr")
         QgsProject.instance().addMapLayer(roads, False)
-        theirs = geometries(self.by_program("--gap=1", "--max-shift=8", "--barrier=%s,layer=roads,width=5m,gap=0.5m" % TOWN,
+        theirs = geometries(self.by_program("--gap=1", "--max-shift=8", "--barrier=%s,layer=roads,width=5m,gap=0.5m,least=0.2m" % TOWN,
                                             ), "buildings")
-        for row in (["Roads of the town", "5", "0.5", "", "", ""], [TOWN + "|layername=roads", "5m", "0.5", "", "yes", "area"]):
+        for row in (["Roads of the town", "5", "0.5", "0.2", "", "", ""],
+                    [TOWN + "|layername=roads", "5m", "0.5", "0.2m", "", "yes", "area"]):
             done = self.run_algorithm("separate", {"INPUT": self.town(), "GAP": 1, "MAX_SHIFT": 8, "UNIT": 1, "BARRIER": row,
                                                    "OUTPUT": TEMPORARY})
             self.assertEqual(geometries(self.source(done["OUTPUT"])), theirs)
@@ -246,7 +247,7 @@ class SeparateTest(Case):
                                             ), "buildings")
         for name in ("Roads of the town", "Copied roads"):
             done = self.run_algorithm("separate", {"INPUT": self.town(), "GAP": 1, "MAX_SHIFT": 8, "OUTPUT": TEMPORARY,
-                                                   "BARRIER": [name, "5", "", "$id > 4", "", ""]})
+                                                   "BARRIER": [name, "5", "", "", "$id > 4", "", ""]})
             self.assertEqual(geometries(self.source(done["OUTPUT"])), theirs, name)
 
     def test_barriers_chosen_as_layers(self):
@@ -261,7 +262,7 @@ class SeparateTest(Case):
         done = self.run_algorithm("separate", dict(values, BARRIER_LAYERS=[roads, copied]))
         self.assertEqual(geometries(self.source(done["OUTPUT"])), theirs)
         # Barriers given by id, together with the table.
-        table = [copied.name(), "5", "0.5", "", "", ""]
+        table = [copied.name(), "5", "0.5", "", "", "", ""]
         done = self.run_algorithm("separate", dict(values, BARRIER_LAYERS=[roads.id()], BARRIER=table))
         self.assertEqual(geometries(self.source(done["OUTPUT"])), theirs)
 
@@ -274,9 +275,9 @@ class SeparateTest(Case):
                 self.assertEqual(algorithm.parameterDefinition(length).parentParameterName(), "INPUT", length)
 
     def test_barriers_that_mean_nothing_are_told(self):
-        for row, said in ((["nowhere", "", "", "", "", ""], "no layer nowhere"),
-                          ([TOWN + "|layername=roads", "broad", "", "", "", ""], "neither a width nor a field"),
-                          ([TOWN + "|layername=roads", "", "", "a >", "", ""], "filter")):
+        for row, said in ((["nowhere", "", "", "", "", "", ""], "no layer nowhere"),
+                          ([TOWN + "|layername=roads", "broad", "", "", "", "", ""], "neither a width nor a field"),
+                          ([TOWN + "|layername=roads", "", "", "", "a >", "", ""], "filter")):
             self.refused(said, "separate", {"INPUT": self.town(), "BARRIER": row, "OUTPUT": TEMPORARY})
 
     def test_millimetres_on_the_sheet(self):
@@ -448,8 +449,8 @@ class RealLayers(Case):
         path = os.path.join(DATA, "krems_2013.gpkg")
         words = [path, "-l", "buildings", "--gap=1", "--max-shift=8", "--barrier=%s,layer=roads,width=4" % path,
                  "--barrier=%s,layer=waterways,width=2,gap=3,where=waterway = 'river'" % path]
-        barriers = [path + "|layername=roads", "4", "", "", "", "",
-                    path + "|layername=waterways", "2", "3", "\"waterway\" = 'river'", "", ""]
+        barriers = [path + "|layername=roads", "4", "", "", "", "", "",
+                    path + "|layername=waterways", "2", "3", "", "\"waterway\" = 'river'", "", ""]
         values = {"GAP": 1, "MAX_SHIFT": 8, "BARRIER": barriers}
         self.assertGreater(self.compare(self.layer("krems_2013.gpkg"), words, values), 1000)
         self.compare(self.memory_copy(self.layer("krems_2013.gpkg")), words, values)

@@ -103,6 +103,10 @@ typedef bool gis_barrier_take(void *user, const gis_barrier_common *common, gis_
 bool gis_barrier_visit(const gis_barrier_request *request, const gis_barrier_surroundings *around, size_t batch,
                        gis_barrier_take *take, void *user, gis_barrier_common *common, gis_error *error);
 void gis_barrier_feature_clear(gis_barrier_feature *feature);
+/* The core's barrier of the feature f, from which it borrows. A gap of -1 stands for the layer's, which the core
+ * knows. */
+sunder_barrier gis_barrier_demands(const gis_barrier_feature *f, const gis_barrier_request *request,
+                                   const gis_barrier_common *common);
 
 /* ---- barrier_reach.c --------------------------------------------------------------------------------------------- */
 

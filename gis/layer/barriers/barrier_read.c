@@ -285,9 +285,8 @@ bool gis_barrier_visit(const gis_barrier_request *request, const gis_barrier_sur
 
 /* ---- All of them ------------------------------------------------------------------------------------------------- */
 
-/* The core's barrier of a feature. A gap of -1 stands for the layer's, which the core knows. */
-static sunder_barrier barrier_of(const gis_barrier_feature *f, const gis_barrier_request *request,
-                                 const gis_barrier_common *common)
+sunder_barrier gis_barrier_demands(const gis_barrier_feature *f, const gis_barrier_request *request,
+                                   const gis_barrier_common *common)
 {
     const bool own = request->gap.text || request->least.text, least = common->least >= 0;
     return (sunder_barrier){
@@ -306,7 +305,7 @@ static bool make_barriers(const gis_barrier_request *requests, const gis_barrier
     if (!out->barrier) return gis_no_memory(error);
     for (size_t k = 0; k < out->n; k++) {
         const gis_barrier_feature *f = &out->feature[k];
-        out->barrier[k] = barrier_of(f, &requests[f->request], &common[f->request]);
+        out->barrier[k] = gis_barrier_demands(f, &requests[f->request], &common[f->request]);
     }
     return true;
 }

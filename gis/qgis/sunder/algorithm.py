@@ -22,7 +22,7 @@ from qgis.PyQt.QtGui import QDesktopServices, QIcon
 
 from . import options, program, result, source
 from . import parameters as parameters_of
-from .command_line import BadValue, barrier, row_of_layer, rows_of, unit_of, words
+from .command_line import BARRIER_COLUMNS, BadValue, barrier, row_of_layer, rows_of, unit_of, words
 from .options import BARRIER_LAYERS, BARRIERS, EXPRESSION, FIELD, LENGTH, NUMERIC_FIELD, SOURCE, UNIT
 
 PROGRAM_SETTING = "SUNDER_PROGRAM"  # the setting of Processing that has the path of the program
@@ -205,7 +205,7 @@ class Algorithm(QgsProcessingAlgorithm):
             layer = QgsProcessingUtils.mapLayerFromString(row[0], context)
             if not isinstance(layer, QgsVectorLayer) or not layer.isValid():
                 raise BadValue("Barriers: there is no layer %s, neither in the project nor as a file." % row[0])
-            self.barriers.append((row, source.of_layer(layer, row[3]), True))
+            self.barriers.append((row, source.of_layer(layer, row[BARRIER_COLUMNS.index("Filter")]), True))
 
     def _prepare_chosen_barriers(self):
         """Prepares the layers from the list of barriers. They have neither a filter nor a field of widths."""

@@ -6,7 +6,7 @@ that the dialog has no value. Numbers are written so that they read back as the 
 from .options import (BARRIER_LAYERS, BARRIER_LENGTH, BARRIERS, CHOICE, COUNT, EXPRESSION, FIELD, FLAG, LENGTH, NUMBER,
                       NUMERIC_FIELD, POINT, SCALE, SOURCE, TEXT, UNIT, UNITS, of_command)
 
-BARRIER_COLUMNS = ("Layer", "Width or field", "Gap", "Filter", "Side (yes/no)", "As (area/boundary)")
+BARRIER_COLUMNS = ("Layer", "Width or field", "Gap", "Least gap", "Filter", "Side (yes/no)", "As (area/boundary)")
 
 
 class BadValue(Exception):
@@ -68,7 +68,7 @@ def row_of_layer(name, values):
     """Returns the row for a layer from the list of barriers; its width and gap are those of the dialog."""
     cells = [number(value) if value is not None else "" for value in
              (values.get("BARRIER_WIDTH"), values.get("BARRIER_GAP"))]
-    return [name] + cells + ["", "", ""]
+    return [name] + cells + [""] * (len(BARRIER_COLUMNS) - 3)
 
 
 def _is_null(cell):
@@ -116,7 +116,7 @@ def barrier(row, unit, dataset, layer, fields):
     the names of the layer's fields. A width that is the name of a field means that field. Any other width is a length,
     with a unit of its own or in the unit of the dialog. The filter of the row was applied when the layer was copied.
     Raises BadValue for a cell that has no meaning."""
-    name, width, gap, _, side, taken_as = row
+    name, width, gap, least, _, side, taken_as = row
     parts = [_escaped(dataset), "layer=" + _escaped(layer)]
     if width in fields:
         parts.append("width-field=" + width)
@@ -127,6 +127,8 @@ def barrier(row, unit, dataset, layer, fields):
         parts.append("width=" + _length_of_cell(width, unit, "width", name))
     if gap:
         parts.append("gap=" + _length_of_cell(gap, unit, "gap", name))
+    if least:
+        parts.append("least=" + _length_of_cell(least, unit, "least gap", name))
     if side:
         if side.lower() not in ("yes", "no"):
             raise BadValue("Barriers, %s: side is yes or no, not %s." % (name, side))

@@ -71,7 +71,7 @@ OPTIONS = (
     Option("--barrier", BARRIERS, LAYERS, "Barriers as a table (widths, filters, sides of each)",
            "In addition to the layers chosen above, one row for each layer. Layer: the name of a layer of the project, or a file. "
            "Width or field: the full drawn width, or the field that holds it. Gap: from the drawn edge, the gap "
-           "between features where empty. Filter: an expression. Side: no lets features cross it. As: boundary takes a "
+           "between features where empty. Least gap: of this layer, as the least gap of features. Filter: an expression. Side: no lets features cross it. As: boundary takes a "
            "polygon's rings as lines."),
     Option("--max-shift", LENGTH, LAYERS, "Longest move", "No feature moves farther. Empty: no limit.",
            advanced=False),

@@ -276,7 +276,9 @@ static bool keep_conflict(void *user, const gis_sort_head *head, const gis_part_
         if (g->more && rows->head.first == head->first && rows->one.rows) return true;
     }
     *keep = !is_again(g, head->first, head->second);
-    if (*keep) g->out->summary.inside_overlaps += is_inside_overlap(&one->conflict[0].is);
+    if (!*keep) return true;
+    g->out->summary.inside_overlaps += is_inside_overlap(&one->conflict[0].is);
+    g->out->summary.tight += one->conflict[0].is.kind == SUNDER_CONFLICT_TIGHT;
     return true;
 }
 

@@ -23,6 +23,12 @@ static bool is_line(const gis_part_result *r, const gis_part_line *line)
 
 static bool is_place(size_t index, uint64_t places) { return places == 0 || index < places; }
 
+/* Is it the kind of a pair in a layer, not of a breach of rules by moves? */
+static bool is_kind(sunder_conflict_kind kind)
+{
+    return (unsigned)kind <= SUNDER_CONFLICT_DUPLICATE || kind == SUNDER_CONFLICT_TIGHT;
+}
+
 static bool is_status(sunder_feature_status status) { return (unsigned)status <= SUNDER_FEATURE_SKIPPED; }
 
 static bool are_worlds(const gis_part_result *r, uint64_t places)
@@ -66,7 +72,7 @@ static bool is_conflict(const gis_part_result *r, const gis_part_conflict *c, ui
     const sunder_conflict *is = &c->is;
     bool sound = is_place(is->a, places) && is_place(is->b, places) && is_flag(&is->inside_block) &&
                  is_flag(&is->crowded) && is_flag(&is->by_row) && is_flag(&c->loose) && is_line(r, &c->line) &&
-                 (unsigned)is->kind <= SUNDER_CONFLICT_NOT_A_TRANSLATE && (unsigned)is->reason <= SUNDER_REASON_ROW &&
+                 is_kind(is->kind) && (unsigned)is->reason <= SUNDER_REASON_ROW &&
                  range_is_within(c->blocker, is->n_blocked_by, r->blockers) &&
                  range_is_within(c->name, c->names, r->names) && conflict_names(r, c, is->a) &&
                  conflict_names(r, c, is->b) && (is->need_gone == SIZE_MAX || conflict_names(r, c, is->need_gone));

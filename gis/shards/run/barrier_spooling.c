@@ -22,10 +22,7 @@ static bool take_barrier(void *user, const gis_barrier_common *common, gis_barri
         .number = s->n++,
         .fid = f->fid,
         .layer = common->layer,
-        .demands = {.geometry = {f->shape, f->lines.xy, f->lines.end, f->lines.lines},
-                    .width = f->width,
-                    .gap = s->request->gap.text ? common->distance : -1,
-                    .side = s->request->side},
+        .demands = gis_barrier_demands(f, s->request, common),
     };
     const bool done = gis_barriers_add(s->writer, &barrier, error);
     gis_barrier_feature_clear(f);
@@ -36,7 +33,8 @@ static bool spool_all(const gis_barrier_request *requests, size_t n, const gis_b
                       const char *directory, gis_error *error)
 {
     spooling s = {0};
-    bool done = gis_barriers_create(directory, around->gap, &s.writer, error);
+    bool done = gis_barriers_create(directory, around->least_gap >= 0 ? around->least_gap : around->gap,
+                                    around->gap, &s.writer, error);
     for (size_t k = 0; k < n && done; k++) {
         gis_barrier_common common;
         s.request = &requests[k];

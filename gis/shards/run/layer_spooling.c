@@ -176,6 +176,7 @@ static void fill_facts(spooling *s)
     facts->name = CPLStrdup(gis_source_name(input->source));
     facts->units = input->units;
     facts->gap = input->gap;
+    facts->least_gap = input->least_gap;
     facts->max_shift = input->max_shift;
     facts->tolerance = input->tolerance;
     facts->points = input->points;

@@ -13,7 +13,7 @@ typedef struct gis_layer_facts {
     char *name; /* owned */
     gis_source_facts source;
     gis_crs_units units;
-    double gap, max_shift, tolerance;
+    double gap, least_gap, max_shift, tolerance;
     double longest_limit; /* the longest move that any feature may make; 0: none may move */
     double barrier_reach;
     bool points;

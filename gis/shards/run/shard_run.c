@@ -96,6 +96,7 @@ static void choose_options(gis_shard_run *p)
                                    .points = p->facts.points,
                                    .units = p->facts.units,
                                    .gap = p->facts.gap,
+                                   .least_gap = p->facts.least_gap,
                                    .max_shift = p->facts.max_shift,
                                    .tolerance = p->facts.tolerance,
                                    .barrier_reach = p->facts.barrier_reach};
@@ -183,6 +184,7 @@ bool gis_shard_run_open_source(gis_shard_run *parts, bool whole, gis_layer_input
     out->request = parts->request;
     out->n = parts->facts.source.features;
     out->gap = parts->facts.gap;
+    out->least_gap = parts->facts.least_gap;
     out->max_shift = parts->facts.max_shift;
     out->tolerance = parts->facts.tolerance;
     out->barrier_reach = parts->facts.barrier_reach;

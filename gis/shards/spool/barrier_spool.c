@@ -1,5 +1,6 @@
 /* barrier_spool.c: see barrier_spool.h. A barrier is stored as a feature whose members have another meaning: index is
- * its number, weight its width, max_shift its gap, fixed says that it has sides, and id is the name of its layer. */
+ * its number, weight its width, max_shift its gap, area its full gap, fixed says that it has sides, and id is the name
+ * of its layer. */
 #include "shards/spool/barrier_spool.h"
 
 #include "base/array.h"
@@ -45,13 +46,13 @@ static bool own_rest(gis_spooled_barrier *to, gis_error *error)
 
 /* ---- Barriers that every part gets ------------------------------------------------------------------------------- */
 
-/* Properties that some barrier has: any geometry, lines, no distance owed, the largest distance owed. For each property
- * the smallest barrier that has it is given to every part. */
-enum { ANY, LINES, BARE, MOST, FACTS };
+/* Properties that some barrier has: any geometry, lines, no distance owed, a greater full distance, the largest full
+ * distance. For each property the smallest barrier that has it is given to every part. */
+enum { ANY, LINES, BARE, SLACK, MOST, FACTS };
 
 struct gis_barriers_writer {
     char *directory;
-    double gap, most;
+    double gap, full_gap, most;
     gis_spool_writer *all;
     size_t n;
     struct {
@@ -61,11 +62,23 @@ struct gis_barriers_writer {
     } fact[FACTS];
 };
 
-/* The distance that features must keep from the barrier: half its width plus the gap, rounded up as in the core. */
+/* Half the barrier's width plus a gap, rounded up as in the core. */
+static double distance_with(const sunder_barrier *b, double gap)
+{
+    const double half = b->width / 2, sum = half + gap, back = sum - half;
+    return (half - (sum - back)) + (gap - back) > 0 ? nextafter(sum, INFINITY) : sum;
+}
+
+/* The distance that features must keep from the barrier. */
 static double distance_owed(const gis_barriers_writer *w, const sunder_barrier *b)
 {
-    const double half = b->width / 2, gap = b->gap < 0 ? w->gap : b->gap, sum = half + gap, back = sum - half;
-    return (half - (sum - back)) + (gap - back) > 0 ? nextafter(sum, INFINITY) : sum;
+    return distance_with(b, b->gap < 0 ? w->gap : b->gap);
+}
+
+/* The distance that features are to keep from the barrier if it pays. */
+static double full_distance(const gis_barriers_writer *w, const sunder_barrier *b)
+{
+    return distance_with(b, b->full_gap > 0 ? b->full_gap : b->gap < 0 ? w->full_gap : b->gap);
 }
 
 static size_t size_of(const sunder_obstacle *o)
@@ -95,11 +108,11 @@ static bool copy_barrier(const gis_spooled_barrier *from, gis_spooled_barrier *t
 static bool note_facts(gis_barriers_writer *w, const gis_spooled_barrier *barrier, gis_error *error)
 {
     const sunder_obstacle *o = &barrier->demands.geometry;
-    const double own = distance_owed(w, &barrier->demands);
+    const double own = distance_owed(w, &barrier->demands), full = full_distance(w, &barrier->demands);
     const size_t size = size_of(o);
-    const bool more = own > w->most || w->n == 1,
-               is[FACTS] = {size > 0, o->lines > 0, own == 0, own >= w->most || more};
-    if (more) w->most = own;
+    const bool more = full > w->most || w->n == 1,
+               is[FACTS] = {size > 0, o->lines > 0, own == 0, full > own, full >= w->most || more};
+    if (more) w->most = full;
     for (int k = 0; k < FACTS; k++) {
         if (!is[k] || (w->fact[k].there && w->fact[k].size <= size && !(k == MOST && more))) continue;
         free_barrier(&w->fact[k].barrier);
@@ -123,6 +136,7 @@ static bool add_barrier(gis_spool_writer *to, const gis_spooled_barrier *b, doub
                     .block = -1,
                     .fixed = b->demands.side},
         .start = {NAN, NAN},
+        .area = b->demands.full_gap,
         .id = b->layer,
         .lines = b->demands.geometry,
         .reach = reach,
@@ -137,11 +151,13 @@ static bool make_directory(const char *path, gis_error *error)
            gis_fail(error, "%s: it cannot be made: %s", path, strerror(errno));
 }
 
-bool gis_barriers_create(const char *directory, double gap, gis_barriers_writer **out, gis_error *error)
+bool gis_barriers_create(const char *directory, double gap, double full_gap, gis_barriers_writer **out,
+                         gis_error *error)
 {
     gis_barriers_writer *w = calloc(1, sizeof *w);
     if (!w) return gis_no_memory(error);
     w->gap = gap;
+    w->full_gap = full_gap;
     w->directory = gis_disk_path(directory, GIS_BARRIERS);
     const bool done = (w->directory || gis_no_memory(error)) && make_directory(w->directory, error) &&
                       gis_spool_create(w->directory, NULL, &w->all, error);
@@ -156,7 +172,7 @@ bool gis_barriers_add(gis_barriers_writer *writer, const gis_spooled_barrier *ba
 {
     writer->n++;
     return note_facts(writer, barrier, error) &&
-           add_barrier(writer->all, barrier, distance_owed(writer, &barrier->demands), error);
+           add_barrier(writer->all, barrier, full_distance(writer, &barrier->demands), error);
 }
 
 bool gis_barriers_finish(gis_barriers_writer *writer, gis_error *error)
@@ -171,7 +187,7 @@ bool gis_barriers_finish(gis_barriers_writer *writer, gis_error *error)
             again =
                 again || (writer->fact[i].there && writer->fact[i].barrier.number == writer->fact[k].barrier.number);
         if (!again)
-            done = add_barrier(few, &writer->fact[k].barrier, distance_owed(writer, &writer->fact[k].barrier.demands),
+            done = add_barrier(few, &writer->fact[k].barrier, full_distance(writer, &writer->fact[k].barrier.demands),
                                error);
     }
     done = done && gis_spool_finish(few, 1, NULL, NULL, error) && gis_spool_finish(writer->all, 1, NULL, NULL, error);
@@ -265,8 +281,11 @@ static bool take_barrier(void *user, const gis_spool_feature *f, gis_error *erro
         .number = f->index,
         .fid = f->fid,
         .layer = f->id ? f->id : "",
-        .demands = {
-            .geometry = f->lines, .width = f->demands.weight, .gap = f->demands.max_shift, .side = f->demands.fixed}};
+        .demands = {.geometry = f->lines,
+                    .width = f->demands.weight,
+                    .gap = f->demands.max_shift,
+                    .side = f->demands.fixed,
+                    .full_gap = f->area}};
     b->demands.geometry.shape = shape;
     return own_rest(b, error);
 }

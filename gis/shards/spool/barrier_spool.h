@@ -3,7 +3,7 @@
  * Barriers have a spool of their own. Each is stored with the box within which features owe it a distance, so that only
  * barriers whose box meets a part's boxes matter to the part. In addition every part gets a few barriers that represent
  * properties of all barriers together, on which the core's decisions depend: the largest distance owed, and whether
- * there is any barrier, one with lines, one to which no distance is owed. */
+ * there is any barrier, one with lines, one to which no distance is owed, one with a full gap. */
 #ifndef GIS_BARRIER_SPOOL_H
 #define GIS_BARRIER_SPOOL_H
 
@@ -25,9 +25,10 @@ typedef struct gis_spooled_barrier {
 
 typedef struct gis_barriers_writer gis_barriers_writer;
 
-/* Creates `barriers` in the directory, in place of an existing one. `gap` is that of barriers without a gap of their
- * own. */
-bool gis_barriers_create(const char *directory, double gap, gis_barriers_writer **out, gis_error *error);
+/* Creates `barriers` in the directory, in place of an existing one. `gap` and `full_gap` are those of barriers without
+ * a gap of their own; the latter is the greater, or they are equal. */
+bool gis_barriers_create(const char *directory, double gap, double full_gap, gis_barriers_writer **out,
+                         gis_error *error);
 bool gis_barriers_add(gis_barriers_writer *writer, const gis_spooled_barrier *barrier, gis_error *error);
 bool gis_barriers_finish(gis_barriers_writer *writer, gis_error *error);
 void gis_barriers_writer_free(gis_barriers_writer *writer);

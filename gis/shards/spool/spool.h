@@ -24,7 +24,7 @@ typedef struct gis_spool_feature {
     sunder_feature demands; /* its shape is borrowed when a feature is added, and owned by the visitor when it is
                              * read */
     double start[2];        /* of a point feature: the start of its arrow; otherwise NAN */
-    double area;            /* of the shape, if weights depend on it; else 0 */
+    double area;            /* of the shape, if weights depend on it; of a barrier, the full gap; else 0 */
     const char *id;         /* value of --id-field as text; NULL: null */
     sunder_obstacle lines;  /* of a barrier (shards/spool/barrier_spool.h), borrowed; its shape member is not used */
     int64_t row;            /* number of its row of --rows FIELD, from 1 on; 0: none */

@@ -75,6 +75,16 @@ static void meet_conflicts(gathering *g, const sunder_i_relations *relations)
     }
 }
 
+/* A pair of bodies that may not move is tight without ever having been solved. */
+static void meet_tight(gathering *g, const sunder_report *report)
+{
+    const uint32_t *body_of = g->model->body_of;
+    for (size_t k = 0; k < report->conflicts; k++) {
+        const sunder_conflict *c = &report->conflict[k];
+        if (c->kind == SUNDER_CONFLICT_TIGHT) meet_bodies(g, body_of[c->a], body_of[c->b]);
+    }
+}
+
 static void meet_groups(gathering *g)
 {
     const sunder_i_groups *groups = &g->solver->groups;
@@ -330,7 +340,7 @@ sunder_status sunder_i_report_worlds(sunder_report *report, const sunder_i_solve
     const size_t n = model->bodies;
     gathering g = {.solver = solver,
                    .model = model,
-                   .reach = (model->rules.gap + model->rules.tolerance + model->rules.thin) * (1 + HAIR),
+                   .reach = (model->rules.full_gap + model->rules.tolerance + model->rules.thin) * (1 + HAIR),
                    .row_reach = (const double(*)[4])solver->rows.reach,
                    .root = sunder_i_alloc(n, sizeof *g.root),
                    .active = sunder_i_calloc(n, sizeof *g.active),
@@ -345,6 +355,7 @@ sunder_status sunder_i_report_worlds(sunder_report *report, const sunder_i_solve
         for (size_t e = 0; e < solver->edges; e++) meet_bodies(&g, solver->edge[e].a, solver->edge[e].b);
         meet_conflicts(&g, &solver->start);
         meet_conflicts(&g, &solver->now);
+        meet_tight(&g, report);
         meet_groups(&g);
         find_boxes(&g);
         status = meet_readers(&g, world, err);
