@@ -145,6 +145,26 @@ def terrace(rng, gap, n):
     return houses
 
 
+def corners(rng, gap, n):
+    """Terraces in a line: some have a wing across it at one end, some a wing at both, and some close around a yard."""
+    houses, x = [], 0.0
+
+    def add(w, d, at):
+        houses.append(House([[[(at[0] + px, at[1] + py) for px, py in box(w, d)]]]))
+
+    for _ in range(n):
+        long, wing, deep = rng.randrange(2, 5), rng.choice((0, 0, 1, 1, 2)), rng.choice((5, 6.5, 7))
+        for k in range(long):
+            add(7, 8, (x + 7 * k, 0))
+        for k in range(rng.randrange(1, 3) if wing else 0):
+            for end in (0, long - 1)[:wing]:
+                add(7, deep, (x + 7 * end, 8 + k * deep))
+        if wing == 2 and rng.random() < 0.5:
+            add(7 * long, deep, (x, 8 + deep))
+        x += 7 * long + rng.choice((gap / 2 + 1 / 64, gap + rng.randrange(1, 64) / 64))
+    return houses
+
+
 def ring(rng, gap, n):
     """Houses around a green."""
     angle, w = 2 * math.pi / n, 7.0
@@ -176,10 +196,11 @@ def town(rng, gap, number, blocks):
     """Houses and lines of barriers."""
     houses, lines = [], []
     for k in range(rng.randrange(1, 4)):
-        kind, own = rng.randrange(8), []
+        kind, own = rng.randrange(9), []
         part = (street(rng, gap, rng.randrange(4, 14), own) if kind < 4 else terrace(rng, gap, rng.randrange(5, 14))
                 if kind == 4 else ring(rng, gap, rng.randrange(22, 30)) if kind == 5 else
-                grid(rng, gap, rng.randrange(2, 6), rng.randrange(2, 5)) if kind == 6 else heap(rng, rng.randrange(5, 14)))
+                grid(rng, gap, rng.randrange(2, 6), rng.randrange(2, 5)) if kind == 6 else
+                corners(rng, gap, rng.randrange(4, 8)) if kind == 7 else heap(rng, rng.randrange(5, 14)))
         x, y = (0, 0) if k == 0 else (rng.choice((rng.uniform(0, 30), 400.0 * k)), rng.choice((rng.uniform(10, 30), 0)))
         houses += [moved(h, x, y) for h in part]
         lines += [(snap((a[0] + x, a[1] + y)), snap((b[0] + x, b[1] + y))) for a, b in own]

@@ -5,7 +5,7 @@ import math
 from fractions import Fraction
 
 MARGIN = 1e-9
-REACH, ANGLE, STRAIGHT, SHARED, DEPTHS, LEAST = 4, 15, 0.1, 0.5, 2.5, 3
+REACH, ANGLE, STRAIGHT, SHARED, DEPTHS, DEEP, LEAST = 4, 15, 0.1, 0.5, 2.5, 1.75, 3
 STEP, STEP_GAPS = 0.4, 1.5  # of the smaller depth; in gaps
 
 
@@ -37,10 +37,10 @@ class House:
 
 
 class Block:
-    """A body: all corners of its houses."""
+    """A body: its houses, and all of their corners."""
 
     def __init__(self, houses):
-        self.corners = [p for h in houses for p in h.corners]
+        self.houses, self.corners = houses, [p for h in houses for p in h.corners]
 
 
 def walls_of(edges):
@@ -169,7 +169,8 @@ def stand_side_by_side(p, q, blocks, gap):
     axes = [(direction.real, direction.imag), (-direction.imag, direction.real)]
     stand = [[extent(block, axis) for block in blocks] for axis in axes]
     separation = [apart(*s) for s in stand]
-    one = [judge(axes[k], stand[k], stand[1 - k], (1, -1)[k], gap) for k in (0, 1)]
+    deepest = [[max(b - a for a, b in (extent(h, axis) for h in block.houses)) for block in blocks] for axis in axes]
+    one = [judge(axes[k], stand[k], stand[1 - k], deepest[1 - k], (1, -1)[k], gap) for k in (0, 1)]
     if abs(separation[0] - separation[1]) <= MARGIN:
         if one == [None, None]:
             return None
@@ -182,8 +183,8 @@ def stand_side_by_side(p, q, blocks, gap):
     return found
 
 
-def judge(axis, along, across, left, gap):
-    """left: -1 if `across` was measured to the right of the axis, else 1."""
+def judge(axis, along, across, deepest, left, gap):
+    """deepest: the depth of the deepest house of each block. left: -1 if `across` was measured to the right of the axis, else 1."""
     shorter = [min(b - a for a, b in extents) for extents in (along, across)]
     depths = sorted(b - a for a, b in across)
     if sum(along[0]) > sum(along[1]):
@@ -193,7 +194,8 @@ def judge(axis, along, across, left, gap):
     offsets = sorted([low, high, (low + high) / 2], key=abs)
     answer = all_of(at_most(-SHARED * shorter[0], apart(*along)), at_most(apart(*across), -SHARED * shorter[1]),
                     at_most(depths[1], DEPTHS * depths[0]), at_most(abs(offsets[0]), STEP * depths[0]),
-                    at_most(abs(offsets[0]), STEP_GAPS * gap))
+                    at_most(abs(offsets[0]), STEP_GAPS * gap),
+                    *(at_most(b - a, DEEP * deep) for (a, b), deep in zip(across, deepest)))
     if answer is False:
         return None
     if answer is None or abs(abs(offsets[0]) - abs(offsets[1])) <= MARGIN < abs(offsets[0] - offsets[1]):

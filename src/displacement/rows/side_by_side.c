@@ -23,25 +23,30 @@ static void include_shape(const sunder_shape *shape, const double axis[2], const
     }
 }
 
-/* The extents of a body along a row and across it. */
+/* The extents of a body along a row and across it, and the greatest extent of one of its members across it. */
 typedef struct stand {
     extent along, across;
+    double deepest;
 } stand;
+
+static double length_of(const extent *e) { return e->to - e->from; }
 
 static stand stand_of(const sunder_i_model *model, uint32_t body, const double along[2], const double origin[2])
 {
     const sunder_i_body *b = &model->body[body];
     const double across[2] = {-along[1], along[0]};
-    stand s = {{INFINITY, -INFINITY}, {INFINITY, -INFINITY}};
+    stand s = {{INFINITY, -INFINITY}, {INFINITY, -INFINITY}, 0};
     for (uint32_t m = b->member; m < b->member + b->members; m++) {
+        extent depth = {INFINITY, -INFINITY};
         if (!model->present[model->member[m]]) continue;
         include_shape(sunder_i_thing_shape(model, model->member[m]), along, origin, &s.along);
-        include_shape(sunder_i_thing_shape(model, model->member[m]), across, origin, &s.across);
+        include_shape(sunder_i_thing_shape(model, model->member[m]), across, origin, &depth);
+        s.across.from = sunder_i_min(s.across.from, depth.from);
+        s.across.to = sunder_i_max(s.across.to, depth.to);
+        s.deepest = sunder_i_max(s.deepest, length_of(&depth));
     }
     return s;
 }
-
-static double length_of(const extent *e) { return e->to - e->from; }
 
 static double middle_of(const extent *e) { return (e->from + e->to) / 2; }
 
@@ -66,6 +71,10 @@ static bool are_of_one_depth(const extent *e, const extent *f)
 {
     return length_of(e) <= ROW_DEPTHS * length_of(f) && length_of(f) <= ROW_DEPTHS * length_of(e);
 }
+
+/* Is the body about as deep as its deepest member, as a terrace is? A perimeter block is deeper, and one that turns a
+ * corner. */
+static bool is_one_deep(const stand *s) { return length_of(&s->across) <= ROW_DEEP * s->deepest; }
 
 /* Turns the axis of the walls so that the bodies stand farther apart along it than at right angles to it, and towards
  * the second one, and sets their extents along it and across it. */
@@ -129,7 +138,8 @@ bool sunder_i_row_side_by_side(const sunder_i_model *model, const sunder_i_walls
     sunder_i_walls_axis(&mean, edge->along);
     measure_edge(model, edge, s, link);
     return apart_by_length(&s[0].along, &s[1].along) >= -ROW_SHARED &&
-           apart_by_length(&s[0].across, &s[1].across) <= -ROW_SHARED && are_of_one_depth(&s[0].across, &s[1].across) &&
+           apart_by_length(&s[0].across, &s[1].across) <= -ROW_SHARED &&
+           are_of_one_depth(&s[0].across, &s[1].across) && is_one_deep(&s[0]) && is_one_deep(&s[1]) &&
            are_in_line(s, edge->offset, model->rules.full_gap);
 }
 

@@ -123,6 +123,37 @@ static void check_steps(void **state)
     }
 }
 
+/* Three houses and a terrace of three, with a wing across the row or with one that closes a yard: a terrace is deeper
+ * than its deepest house by 0.75 of it, or it is in no row. */
+static void check_wings(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *wing[3];
+        bool continues;
+    } cases[] = {
+        {{NULL}, true},
+        {{"POLYGON((36 10,46 10,46 17,36 17,36 10))"}, true},
+        {{"POLYGON((36 10,46 10,46 18,36 18,36 10))"}, false},
+        {{"POLYGON((56 10,66 10,66 18,56 18,56 10))"}, false},
+        {{"POLYGON((36 10,66 10,66 24,36 24,36 10))"}, true}, /* the deepest house is 14 deep */
+        {{"POLYGON((36 10,41 10,41 20,36 20,36 10))", "POLYGON((61 10,66 10,66 20,61 20,61 10))",
+          "POLYGON((36 20,66 20,66 25,36 25,36 20))"},
+         false},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        scene s;
+        size_t n;
+        begin(&s, 5);
+        add_houses(&s, 3, 0, 0, 12, 0);
+        add_houses(&s, 3, 36, 0, 10, 0);
+        for (size_t w = 0; w < 3 && cases[k].wing[w]; w++) scene_add(&s, cases[k].wing[w]);
+        const sunder_row *row = rows_of(&s, &n);
+        if (n != 1 || row->bodies != (cases[k].continues ? 4 : 3)) fail_msg("case %zu", k);
+        scene_end(&s);
+    }
+}
+
 /* A shed that is nearer to two houses than they are to each other removes their link. */
 static void check_between(void **state)
 {
@@ -429,7 +460,8 @@ int main(void)
         cmocka_unit_test(check_between),      cmocka_unit_test(check_corner),   cmocka_unit_test(check_ring),
         cmocka_unit_test(check_passed_twice), cmocka_unit_test(check_barrier),  cmocka_unit_test(check_block),
         cmocka_unit_test(check_kinks),        cmocka_unit_test(check_refusals), cmocka_unit_test(check_memory),
-        cmocka_unit_test(check_stops),        cmocka_unit_test(check_steps),    cmocka_unit_test(check_terrace_across),
+        cmocka_unit_test(check_stops),        cmocka_unit_test(check_steps),    cmocka_unit_test(check_wings),
+        cmocka_unit_test(check_terrace_across),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
