@@ -562,7 +562,7 @@ typedef struct sunder_layer_options {
     /* 0 (the default), or pairs that remain in conflict are eased: what a pair lacks of its distance, s, costs
      * w (4 R s + ease s^2), and the cost is least with that. w is the lesser weight of the bodies of the pair that may
      * move, R the lesser max_shift above 0 of the two, or the distance that the pair has to keep. No pair is given up,
-     * and no other one made worse, for it. Not with keep_trees. */
+     * and no other one made worse, for it. */
     double ease;
     /* 0 (the default), or a distance greater than the gap that features are to keep if it pays: any pair may stand
      * between the two, and is then tight. What it lacks of the full gap has the price of `ease`. The tolerance, kinks

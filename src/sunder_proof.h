@@ -35,9 +35,10 @@ SUNDER_EXPERIMENTAL const sunder_bound_pair *sunder_report_bound_pairs(const sun
  * claims, and why the bound follows.
  *
  * A body is a block, a feature in no block, or a barrier; t_i is the move of body i. A tree proves a lower bound of the
- * sum, over its bodies, of weight |t - shift|^2, plus what its springs cost (SUNDER_BOUND_CUT_SPRING). A cut is a
- * condition n.(t_j - t_i) >= d. A node has the cuts of its parent and cuts of its own. Its forces are multipliers of
- * some of these cuts, or of springs, which prove a value by weak duality. */
+ * sum, over its bodies, of weight |t - shift|^2, plus what its springs cost (SUNDER_BOUND_CUT_SPRING), plus the prices
+ * of what its eased pairs lack. A cut is a condition n.(t_j - t_i) + share s >= d, where s is what the pair lacks; the
+ * share is 0 for most cuts. A node has the cuts of its parent and cuts of its own. Its forces are multipliers of some
+ * of these cuts, or of springs, which prove a value by weak duality. */
 typedef struct sunder_bound_body {
     size_t thing;    /* a member of the block, or the feature; or the number of features + k for barrier k */
     double weight;   /* the part of the body's weight that this tree uses; INFINITY if the body does not move */
@@ -54,6 +55,12 @@ typedef struct sunder_bound_piece {
     size_t corners_a, corners_b; /* the number of corners of each part */
     bool shadow;                 /* one part is an anchor, which may not jump over the other part: see sunder_proof */
     bool row;
+    bool priced; /* it forbids nothing: the pair lacks at least the distance that it has to keep, less the distance of u
+                  * from the polygon of all moves at which the two parts overlap, plus its depth in that polygon */
+    /* If it is joined, `part_a` is a polygon instead, in the plane of u, and there is no second part. It lies in the
+     * union of the polygons of the pieces that it names (as a cut does), all of the same a and b. It is priced. */
+    bool joined;
+    size_t named, names;
     /* NAN for a pair that has to keep its full distance. The other pairs are in conflict in the result. If the
      * interiors of such a pair did not meet at the start, the clearance is at most its distance then. If they met, and
      * by the kind of the conflict no longer meet, the clearance is 0. If they still meet, the clearance is -D: some
@@ -69,14 +76,17 @@ typedef enum sunder_bound_cut_kind {
                              * or, if it has none, by the forces of its parent */
     SUNDER_BOUND_CUT_HULL,  /* moves that violate the cut are forbidden by the pieces that it names, or cost at least
                              * the tree's bound */
-    SUNDER_BOUND_CUT_SPRING /* one sign of a spring of a row: moves that violate the cut by v cost stiff * v^2 for it */
+    SUNDER_BOUND_CUT_SPRING, /* one sign of a spring of a row: moves that violate the cut by v cost stiff * v^2 */
+    SUNDER_BOUND_CUT_PRICE   /* moves that violate the cut are forbidden by the pieces that it names, or lack more by
+                             * them, or cost at least the tree's bound */
 } sunder_bound_cut_kind;
 
 typedef struct sunder_bound_cut {
     sunder_bound_cut_kind kind;
     size_t i, j;         /* indices in sunder_bound_tree.body */
-    double n[2], d;      /* the cut is n.(t_j - t_i) >= d; a limit is -n.t_i >= d */
+    double n[2], d;      /* the cut is n.(t_j - t_i) + share s >= d; a limit is -n.t_i >= d */
     double stiff;        /* only of a spring, for which d = 0 */
+    double share;        /* above 0 only for SUNDER_BOUND_CUT_PRICE: bodies i and j are an eased pair then */
     size_t named, names; /* the first entry in sunder_bound_tree.named, and the number of pieces that the cut names */
 } sunder_bound_cut;
 
@@ -110,6 +120,12 @@ typedef struct sunder_bound_prices {
     const uint32_t *price; /* [columns * rows]; NULL for a tree without prices */
 } sunder_bound_prices;
 
+/* Two bodies i < j, of which one may move, and some features of which are in conflict in the result. What they lack is
+ * the most that such a pair of features lacks. */
+typedef struct sunder_bound_eased {
+    size_t i, j; /* indices in sunder_bound_tree.body */
+} sunder_bound_eased;
+
 typedef struct sunder_bound_tree {
     size_t group; /* the number of the contact group; trees of one group follow each other */
     double bound; /* the lower bound that the tree proves */
@@ -118,9 +134,10 @@ typedef struct sunder_bound_tree {
     const sunder_bound_cut *cut;
     const sunder_bound_force *force;
     const sunder_bound_node *node;
-    const size_t *named;  /* indices in `piece` */
-    const double *corner; /* [2 * corners] x and y of the corners of all parts */
-    size_t bodies, pieces, cuts, forces, nodes, names, corners;
+    const sunder_bound_eased *eased; /* the pairs whose prices are part of the bound; no other tree has them */
+    const size_t *named;             /* indices in `piece` */
+    const double *corner;            /* [2 * corners] x and y of the corners of all parts */
+    size_t bodies, pieces, cuts, forces, nodes, eased_pairs, names, corners;
     size_t springs;             /* the first cuts are springs, which belong to no node; the others follow */
     sunder_bound_prices prices; /* if the tree has prices, these prove its bound, and it has no nodes */
 } sunder_bound_tree;

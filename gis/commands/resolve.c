@@ -146,16 +146,13 @@ static bool resolve_stiffness(const gis_options *options, double stiffness[2], g
 /* The price unless --ease gives one. */
 static const double usual_ease = 30;
 
-/* A proof cannot name what pairs lack, so that none is eased with --proof unless said. */
 static bool resolve_ease(const gis_options *options, double *ease, gis_error *error)
 {
     const char *text = options->text[OPT_EASE];
-    if (!text && options->command->bit != GIS_CHECK && !options->given[OPT_PROOF]) *ease = usual_ease;
+    if (!text && options->command->bit != GIS_CHECK) *ease = usual_ease;
     if (!text || strcmp(text, "no") == 0) return true;
     if (!gis_length_parse_number(text, strlen(text), ease) || !(*ease > 0))
         return gis_fail_usage(error, "--ease %s: neither a number above 0 nor \"no\"", text);
-    if (options->given[OPT_PROOF])
-        return gis_fail_usage(error, "--proof: a proof cannot name what pairs lack; leave out --ease");
     return true;
 }
 
@@ -183,8 +180,7 @@ static bool resolve_rules(const gis_options *options, gis_layer_rules *out, gis_
     out->core.threads = thread_count(options);
     if (!resolve_choice(options, OPT_WEIGHT, weighting_word, &weighting, error)) return false;
     out->weighting = (gis_weighting)weighting;
-    return resolve_rows(options, out, error) &&
-           resolve_stiffness(options, out->core.row_stiffness, error) &&
+    return resolve_rows(options, out, error) && resolve_stiffness(options, out->core.row_stiffness, error) &&
            resolve_ease(options, &out->core.ease, error) && resolve_contained(options, &out->core.contained, error);
 }
 

@@ -245,7 +245,14 @@ static void put_piece(gis_proof_lines *w, const sunder_bound_tree *tree, const s
         gis_json_close(&w->json, '}');
         return;
     }
+    if (piece->joined) {
+        put_corners(w, "joined", tree->corner + 2 * piece->part_a, piece->corners_a);
+        put_sizes(w, "pieces", tree->named + piece->named, piece->names);
+        gis_json_close(&w->json, '}');
+        return;
+    }
     if (piece->shadow) gis_json_put_bool(&w->json, "shadow", true);
+    if (piece->priced) gis_json_put_bool(&w->json, "priced", true);
     if (!isnan(piece->clearance)) gis_json_put_double(&w->json, "clearance", piece->clearance);
     put_corners(w, "A", tree->corner + 2 * piece->part_a, piece->corners_a);
     put_corners(w, "B", tree->corner + 2 * piece->part_b, piece->corners_b);
@@ -257,14 +264,17 @@ static void put_cut(gis_proof_lines *w, const sunder_bound_tree *tree, const sun
     static const char *const kinds[] = {[SUNDER_BOUND_CUT_LIMIT] = "limit",
                                         [SUNDER_BOUND_CUT_CONE] = "cone",
                                         [SUNDER_BOUND_CUT_DISC] = "disc",
-                                        [SUNDER_BOUND_CUT_HULL] = "hull"};
+                                        [SUNDER_BOUND_CUT_HULL] = "hull",
+                                        [SUNDER_BOUND_CUT_PRICE] = "price"};
+    const bool price = cut->kind == SUNDER_BOUND_CUT_PRICE;
     gis_json_open(&w->json, '{');
     gis_json_put_string(&w->json, "kind", kinds[cut->kind]);
     gis_json_put_size(&w->json, "i", cut->i);
     if (cut->j != SIZE_MAX) gis_json_put_size(&w->json, "j", cut->j);
     put_place(&w->json, "n", cut->n[0], cut->n[1]);
     gis_json_put_double(&w->json, "d", cut->d);
-    if (cut->kind == SUNDER_BOUND_CUT_HULL) put_sizes(w, "pieces", tree->named + cut->named, cut->names);
+    if (price) gis_json_put_double(&w->json, "share", cut->share);
+    if (price || cut->kind == SUNDER_BOUND_CUT_HULL) put_sizes(w, "pieces", tree->named + cut->named, cut->names);
     gis_json_close(&w->json, '}');
 }
 
@@ -280,6 +290,19 @@ static void put_springs(gis_proof_lines *w, const sunder_bound_tree *tree)
         put_place(&w->json, "n", spring->n[0], spring->n[1]);
         gis_json_put_double(&w->json, "stiff", spring->stiff);
         gis_json_close(&w->json, '}');
+    }
+    gis_json_close(&w->json, ']');
+}
+
+static void put_eased(gis_proof_lines *w, const sunder_bound_tree *tree)
+{
+    gis_json_key(&w->json, "eased");
+    gis_json_open(&w->json, '[');
+    for (size_t k = 0; k < tree->eased_pairs; k++) {
+        gis_json_open(&w->json, '[');
+        gis_json_size(&w->json, tree->eased[k].i);
+        gis_json_size(&w->json, tree->eased[k].j);
+        gis_json_close(&w->json, ']');
     }
     gis_json_close(&w->json, ']');
 }
@@ -307,6 +330,13 @@ static bool are_same_forces(const sunder_bound_tree *tree, const sunder_bound_no
     return same;
 }
 
+static bool has_disc(const sunder_bound_tree *tree, const sunder_bound_node *node)
+{
+    for (size_t k = node->cut; k < node->cut + node->cuts; k++)
+        if (tree->cut[k].kind == SUNDER_BOUND_CUT_DISC) return true;
+    return false;
+}
+
 static void put_node(gis_proof_lines *w, const sunder_bound_tree *tree, const sunder_bound_node *node)
 {
     gis_json_open(&w->json, '{');
@@ -319,7 +349,7 @@ static void put_node(gis_proof_lines *w, const sunder_bound_tree *tree, const su
     gis_json_open(&w->json, '[');
     for (size_t k = node->cut; k < node->cut + node->cuts; k++) put_cut(w, tree, &tree->cut[k]);
     gis_json_close(&w->json, ']');
-    if (node->bys && !are_same_forces(tree, &tree->node[node->parent], node))
+    if (has_disc(tree, node) && !are_same_forces(tree, &tree->node[node->parent], node))
         put_forces(w, "by", tree->force + node->by, node->bys);
     put_forces(w, "forces", tree->force + node->force, node->forces);
     if (node->empty) {
@@ -380,6 +410,7 @@ bool gis_proof_tree(gis_proof_lines *lines, const sunder_bound_tree *tree, gis_e
     for (size_t k = 0; k < tree->pieces; k++) put_piece(lines, tree, &tree->piece[k]);
     gis_json_close(&lines->json, ']');
     if (tree->springs) put_springs(lines, tree);
+    if (tree->eased_pairs) put_eased(lines, tree);
     gis_json_key(&lines->json, "nodes");
     gis_json_open(&lines->json, '[');
     for (size_t k = 0; k < tree->nodes; k++) {
@@ -436,6 +467,7 @@ void gis_proof_head_line(gis_json *json, const gis_proof_head *head)
         for (size_t k = 0; k < 2; k++) gis_json_double(json, head->how.row_stiffness[k]);
         gis_json_close(json, ']');
     }
+    if (head->how.ease > 0) gis_json_put_double(json, "ease", head->how.ease);
     gis_json_put_double(json, "lower_bound", head->summary->lower_bound);
     gis_json_put_size(json, "conflicts", head->conflicts);
     gis_json_put_size(json, "trees", head->trees);

@@ -6,7 +6,7 @@ from form import demand
 
 
 # The data that are kept of a tree, or of prices, after it was verified.
-Proved = namedtuple("Proved", "group bound bodies weights shifts own_weight nodes cuts springs")
+Proved = namedtuple("Proved", "group bound bodies weights shifts own_weight nodes cuts springs prices")
 
 
 class Bodies:
@@ -46,4 +46,4 @@ class Bodies:
         return Fraction(told["weight"])
 
     def proved(self):
-        return Proved(self.group, self.bound, self.bodies, self.weights, self.shifts, self.own_weight, len(self.nodes), len(self.cuts), ())
+        return Proved(self.group, self.bound, self.bodies, self.weights, self.shifts, self.own_weight, len(self.nodes), len(self.cuts), (), ())

@@ -17,6 +17,7 @@ import geopackage  # noqa: E402
 import form  # noqa: E402
 import trees  # noqa: E402
 import verdicts  # noqa: E402
+from eased import Eased  # noqa: E402
 from form import NotRead, Refused, demand, shown  # noqa: E402
 from prices import Prices  # noqa: E402
 from problem import Problem  # noqa: E402
@@ -43,6 +44,7 @@ def read_options(words):
     parser.add_argument("--weight", default="1")
     parser.add_argument("--rows", choices=("auto", "no"), help="auto unless said; no for points")
     parser.add_argument("--row-stiffness", default="3,0.3")
+    parser.add_argument("--ease", default="30")
     parser.add_argument("--no-blocks", action="store_true")
     parser.add_argument("--allow-jumps", action="store_true")
     for name in ("effort", "seed", "id-field", "threads"):
@@ -53,6 +55,7 @@ def read_options(words):
     options.rows = options.rows or ("no" if options.points else "auto")
     stiffness = list(map(float, options.row_stiffness.split(",")))
     options.row_stiffness = (stiffness + [0.3])[:2] if options.rows == "auto" else None
+    options.ease = None if options.ease == "no" else float(options.ease)
     options.contained = options.contained or ("separate" if options.points else "block")
     return options
 
@@ -62,7 +65,8 @@ def check_header(head, options, layer):
                               ("max_shift", head["max_shift"], options.max_shift),
                               ("contained", head["contained"], options.contained),
                               ("allow_jumps", head["allow_jumps"], options.allow_jumps),
-                              ("row_stiffness", head.get("row_stiffness"), options.row_stiffness)):
+                              ("row_stiffness", head.get("row_stiffness"), options.row_stiffness),
+                              ("ease", head.get("ease"), options.ease)):
         demand(told == given, f"the proof is of another problem: {name} is {told}, and not {given}")
 
 
@@ -73,6 +77,7 @@ class Checker:
         self.problem = Problem(options.input, options)
         if options.row_stiffness:
             self.problem.rows = Rows(self.problem, options.row_stiffness)
+        self.problem.eased = Eased(self.problem, options.ease) if options.ease else None
         self.known, self.kept, self.held = {}, set(), {}
         self.result = Result(self.problem, options.result) if options.result else None
 
@@ -82,10 +87,12 @@ class Checker:
         check_header(proof.head, problem.options, problem.name)
         problem.blocks.demand_all(proof.blocks)
         problem.list_conflicts(proof.conflicts)
+        if problem.eased:
+            problem.eased.list_conflicts(proof.conflicts)
         demand(problem.rows or not proof.rows, "rows, where none are looked for")
         if problem.rows:
             problem.rows.demand_all(proof.rows)
-        listed = repr((sorted(problem.listed.items()), proof.rows))
+        listed = repr((sorted(problem.listed.items()), proof.rows, sorted((str(c["a"]), str(c["b"]), c["reason"]) for c in proof.conflicts)))
         found, proved = [], 0
         for key, told in proof.verdicts_and_trees():
             if key == "group":
@@ -93,6 +100,8 @@ class Checker:
             else:
                 proved += self.once(told, listed, self.check_verdict)
         total, bound = trees.add_up(found), proof.head["lower_bound"]
+        if problem.eased:
+            total += problem.eased.rest({pair for tree in found for pair in tree.prices})
         demand(total >= bound, "the bound proved is", shown(total), "and not", bound)
         said = (f"bound {bound:.9g}: {len(found)} trees, {sum(t.nodes for t in found)} nodes, {sum(t.cuts for t in found)} cuts; "
                 f"{len(proof.blocks)} blocks; {proved} of {len(proof.conflicts)} conflicts with proofs; ")

@@ -6,6 +6,7 @@ a lattice 2^16 times as fine as the layer's, and the test is stricter by that ro
 true.
 """
 import math
+from fractions import Fraction
 from itertools import combinations
 
 FINE = 1 << 16
@@ -51,6 +52,14 @@ def clip(region, line):
     return out
 
 
+def region_of(corners):
+    """The region of a convex polygon with these corners, which are integers or fractions."""
+    scale = math.lcm(*(Fraction(v).denominator for p in corners for v in p))
+    points = [tuple(int(scale * v) for v in p) for p in hull(corners)]
+    return [((*p, scale), (p[1] - q[1], q[0] - p[0], Fraction(q[0] * p[1] - p[0] * q[1], scale)))
+            for p, q in zip(points, points[1:] + points[:1])]
+
+
 def hull(points):
     """The convex hull, counter-clockwise, without corners on sides."""
     points = sorted(set(points))
@@ -72,11 +81,12 @@ def hull(points):
 
 class Piece:
     """The convex polygon A - B dilated by an open disc of radius `owed`; with 0 its interior; with a negative value
-    the points farther than that from its outside. A shadow: the points behind it, as seen from the origin."""
+    the points farther than that from its outside. A shadow: the points behind it, as seen from the origin. One that is
+    priced forbids nothing (eased.py)."""
 
-    def __init__(self, a, b, owed, shadow):
+    def __init__(self, a, b, owed, shadow, priced=False):
         self.corners = hull([(p[0] - q[0], p[1] - q[1]) for p in a for q in b])
-        self.owed, self.shadow = owed, shadow
+        self.owed, self.shadow, self.priced = owed, shadow, priced
         fine = [(FINE * x, FINE * y) for x, y in self.corners]
         self.edges = []
         if len(fine) > 2:
@@ -84,20 +94,24 @@ class Piece:
                 q = fine[k + 1 - len(fine)]
                 ex, ey = q[0] - p[0], q[1] - p[1]
                 self.edges.append((p[0], p[1], ex, ey, ex * ex + ey * ey))
-        self.near = max(int(FINE * owed) - 1, 0) ** 2
-        self.inside = 2 if owed == 0 else (math.ceil(-FINE * owed) + 2) ** 2
 
     def holds(self, fine, corner):
         """Is the corner in it, whatever the rounding?"""
-        if self.shadow:
-            return self.is_shaded(corner)
+        if self.priced:
+            return False
+        return self.is_shaded(corner) if self.shadow else self.is_within(fine, self.owed)
+
+    def is_within(self, fine, owed):
+        """Is the corner in the polygon dilated by that radius, whatever the rounding?"""
         x, y = fine
+        near = max(int(FINE * owed) - 1, 0) ** 2
+        inside = 2 if owed == 0 else (math.ceil(-FINE * owed) + 2) ** 2
         outside = []
         for px, py, ex, ey, whole in self.edges:
             wx, wy = x - px, y - py
             cross = ex * wy - ey * wx
-            if self.owed <= 0:
-                if cross <= 0 or cross * cross <= self.inside * whole:
+            if owed <= 0:
+                if cross <= 0 or cross * cross <= inside * whole:
                     return False
             elif cross < 0:
                 outside.append((cross, wx, wy, ex, ey, whole))
@@ -106,11 +120,11 @@ class Piece:
         for cross, wx, wy, ex, ey, whole in outside:
             along = wx * ex + wy * ey
             if along <= 0:
-                far = wx * wx + wy * wy < self.near
+                far = wx * wx + wy * wy < near
             elif along >= whole:
-                far = (wx - ex) ** 2 + (wy - ey) ** 2 < self.near
+                far = (wx - ex) ** 2 + (wy - ey) ** 2 < near
             else:
-                far = cross * cross < self.near * whole
+                far = cross * cross < near * whole
             if far:
                 return True
         return False
@@ -139,7 +153,7 @@ class Beyond:
     """All places with n.u < d, which the rule of rows forbids; the line as line_of() makes it."""
 
     def __init__(self, line):
-        self.line, self.corners, self.shadow = line, (), False
+        self.line, self.corners, self.shadow, self.priced = line, (), False, False
 
     def holds(self, fine, corner):
         (a, b, c), (x, y, w) = self.line, corner
@@ -192,8 +206,9 @@ def common_rays(pieces):
     return found
 
 
-def is_covered(region, pieces):
-    """Is all of the region in the union of the pieces?"""
+def is_covered(region, pieces, leaving=None):
+    """Is all of the region in the union of the pieces? leaving: a function of a piece, the corners of a part, and its middle, which
+    proposes a line that cuts the part; otherwise it is halved."""
     todo, steps, last = [region], 0, None
     for a, b, c in common_rays(pieces):
         todo = [clip(part, line) for part in todo for line in ((a, b, c), (-a, -b, -c))]
@@ -214,8 +229,11 @@ def is_covered(region, pieces):
             last = found
             continue
         middle, (a, b, c) = halves(places)
-        if steps > MOST_STEPS or (a, b) == (0, 0) or not any(p.holds(middle, (*middle, FINE)) for p in pieces):
+        around = [p for p in pieces if p.holds(middle, (*middle, FINE))]
+        if steps > MOST_STEPS or (a, b) == (0, 0) or not around:
             return False
+        if leaving:
+            a, b, c = leaving(max(around, key=lambda p: sum(map(p.holds, places, corners))), places, middle) or (a, b, c)
         todo.append(clip(part, (a, b, c)))
         todo.append(clip(part, (-a, -b, -c)))
     return True

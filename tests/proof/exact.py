@@ -4,6 +4,7 @@ import os
 import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "cli"))
+import ease_bounds  # noqa: E402,F401
 import exact_plane as plane  # noqa: E402,F401
 from anchor import anchor  # noqa: E402,F401
 import rows_oracle  # noqa: E402,F401

@@ -33,7 +33,7 @@ class Case:
     def prepare(self, directory):
         path = os.path.join(directory, self.name + ".gpkg")
         write_layer(path, "buildings", self.layer)
-        words = ["none.jsonl", path, "--layer", "buildings", "--rows", "no", *self.options.split()]
+        words = ["none.jsonl", path, "--layer", "buildings", "--rows", "no", "--ease", "no", *self.options.split()]
         for name, (features, spec) in self.barriers.items():
             file = os.path.join(directory, f"{self.name}.{name}.gpkg")
             write_layer(file, name, features)

@@ -12,6 +12,7 @@ forged() {
     local name=$1 source=$2
     shift 2
     [[ " $* " == *" --rows "* ]] || set -- --rows no "$@"
+    [[ " $* " == *" --ease "* ]] || set -- --ease no "$@"
     "$SUNDER" separate "$source" "$name.o.gpkg" --overwrite -q -l buildings --layers main,displacement,conflicts --proof "$name.jsonl" "$@" 2>err
     case $? in 0 | 3) ;; *) fail "$name: status $?" ;; esac
     runs+=("$(python3 -c 'import json, sys; print(json.dumps({"only": sys.argv[1], "small": sys.argv[2], "proof": sys.argv[3], "words": sys.argv[4:]}))' \

@@ -170,12 +170,15 @@ body = either("barrier", members({"barrier": barrier, **shared}), members({"feat
 piece = either("row", members({"i": whole, "j": whole, "a": thing, "b": thing, "row": true}),
                members({"i": whole, "j": whole, "a": thing, "b": thing, "A": corners, "B": corners},
                        {"shadow": true, "clearance": number}))
+piece = either("priced", members({"i": whole, "j": whole, "a": thing, "b": thing, "priced": true, "A": corners, "B": corners}), piece)
+piece = either("joined", members({"i": whole, "j": whole, "a": thing, "b": thing, "joined": all_of(place, 3), "pieces": all_of(whole, 1)}), piece)
 spring = members({"i": whole, "j": whole, "n": place, "stiff": positive})
 named = all_of(whole)
 side = {"i": whole, "n": place, "d": number}
 CUTS = {"limit": members({"kind": name, **side}), "cone": members({"kind": name, "j": whole, **side}),
         "disc": members({"kind": name, "j": whole, **side}),
-        "hull": members({"kind": name, "j": whole, "pieces": named, **side})}
+        "hull": members({"kind": name, "j": whole, "pieces": named, **side}),
+        "price": members({"kind": name, "j": whole, "share": positive, "pieces": named, **side})}
 
 
 def cut(value, where):
@@ -190,12 +193,13 @@ prices = members({"side": positive, "unit": positive, "x": integer, "y": integer
                   "rows": all_of(all_of(integer), 1)})
 tree = {"group": whole, "bound": number, "bodies": all_of(body, 1)}
 group = either("prices", members({**tree, "prices": prices}),
-               members({**tree, "pieces": all_of(piece), "nodes": all_of(node, 1)}, {"springs": all_of(spring, 1)}))
+               members({**tree, "pieces": all_of(piece), "nodes": all_of(node, 1)},
+                       {"springs": all_of(spring, 1), "eased": all_of(pair_of(whole, whole), 1)}))
 row = members({"row": whole, "a": integer, "b": integer, "along": place, "apart": number})
 head = members({"sunder_proof": whole, "layer": name, "gap": not_negative, "max_shift": or_null(not_negative),
                 "contained": one_of(("block", "ignore", "separate")), "allow_jumps": boolean,
                 "lower_bound": not_negative, "conflicts": whole, "trees": whole},
-               {"row_stiffness": all_of(not_negative, 2, 2)})
+               {"row_stiffness": all_of(not_negative, 2, 2), "ease": positive})
 block = members({"block": all_of(integer, 2)})
 LINES = {"block": block, "row": row, "conflict": conflict, "group": group}
 

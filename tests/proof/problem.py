@@ -146,7 +146,7 @@ class Problem:
             if side:
                 self.sides.add(key)
         self.anchors, self.side_anchors = {}, {}
-        self.rows = None  # see rows.py
+        self.rows = self.eased = None  # see rows.py, eased.py
         self.blocks = Blocks(self)
         self.blocks.find()
 

@@ -54,14 +54,20 @@ def written(name, features):
     return name + ".gpkg"
 
 
-def proved(sunder, rng):
-    """(the checker, the lines of the file)"""
+def written_layer(rng):
+    """Writes a layer that is drawn to l.gpkg; returns the options."""
     houses, lines, words = drawn(rng)
     written("l", [{"type": "Feature", "id": k, "properties": {"fixed": h.fixed, "ignored": h.ignored, "block": h.block},
                    "geometry": towns.as_written(h, (0, 0), towns.same, towns.AS_IS)} for k, h in enumerate(houses, 1)])
     if lines:
         path = written("b", [{"type": "Feature", "properties": {}, "geometry": {"type": "LineString", "coordinates": e}} for e in lines])
         words += ["--barrier", f"{path},width={rng.choice((0, 3))},gap={rng.choice((0, 1))}"]
+    return words
+
+
+def proved(sunder, rng):
+    """(the checker, the lines of the file, the options)"""
+    words = written_layer(rng)
     command = [sunder, "separate", "l.gpkg", "o.gpkg", "--overwrite", "-q", "--allow-conflicts", "--proof", "p.jsonl", *words]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     if done.returncode:

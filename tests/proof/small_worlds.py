@@ -83,7 +83,7 @@ def search(sunder, first, last):
     with tempfile.TemporaryDirectory() as directory:
         name = os.path.join(directory, "world")
         for seed in range(first, last):
-            done = subprocess.run([sunder, "separate", name + ".csv", name + ".gpkg", "--overwrite", "-q", "--rows", "no", "--layers", "conflicts", "--proof",
+            done = subprocess.run([sunder, "separate", name + ".csv", name + ".gpkg", "--overwrite", "-q", "--rows", "no", "--ease", "no", "--layers", "conflicts", "--proof",
                                    name + ".jsonl", *make(seed, name)], capture_output=True, check=False)
             if done.returncode not in (0, 3):
                 continue

@@ -15,17 +15,18 @@ of() {
     [[ " $* " != *" --sql "* ]] || named=()
 }
 
-# without_rows OPTIONS...: sets `asked` to these, and --rows no unless they say what rows there are
-without_rows() {
+# least_moves OPTIONS...: sets `asked` to these, with --rows no and --ease no unless they say what rows and prices there are
+least_moves() {
     asked=("$@")
     [[ " $* " == *" --rows "* ]] || asked+=(--rows no)
+    [[ " $* " == *" --ease "* ]] || asked+=(--ease no)
 }
 
 # proved NAME SOURCE OPTIONS...: separates and checks the proof, with --layer buildings
 proved() {
     local name=$1 source=$2
     shift 2
-    without_rows "$@"
+    least_moves "$@"
     set -- "${asked[@]}"
     of buildings "$@"
     "$SUNDER" separate "$source" o.gpkg --overwrite -q "${named[@]}" --layers main,displacement,conflicts --proof "$name.jsonl" "$@" 2>err
@@ -38,7 +39,7 @@ proved() {
 refuted() {
     local name=$1 source=$2
     shift 2
-    without_rows "$@"
+    least_moves "$@"
     set -- "${asked[@]}"
     python3 "$here/mutations.py" "$name.jsonl" "$source" --layer buildings "$@" >said 2>kinds || fail "$name: $(cat said)"
     cat kinds
@@ -48,7 +49,7 @@ refuted() {
 strange() {
     local name=$1 source=$2
     shift 2
-    without_rows "$@"
+    least_moves "$@"
     set -- "${asked[@]}"
     of buildings "$@"
     python3 "$here/check_proof.py" "$name.jsonl" "$source" "${named[@]}" "$@" >said 2>&1
@@ -105,9 +106,11 @@ grep -q '"barrier": "hairpin:1".*"barrier": "hairpin:1"' hairpin.jsonl || fail "
 same_bound() { # NAME SOURCE OPTIONS...
     local name=$1 source=$2 told=lower_bound
     shift 2
-    proved "$name" "$source" "$@"
-    "$SUNDER" separate "$source" o.gpkg --overwrite -q -l buildings --stats with.json --proof "$name.jsonl" "$@" 2>err
-    "$SUNDER" separate "$source" o.gpkg --overwrite -q -l buildings --stats without.json --ease no "$@" 2>err
+    "$SUNDER" separate "$source" without.gpkg --overwrite -q -l buildings --stats without.json "$@" 2>err
+    "$SUNDER" separate "$source" with.gpkg --overwrite -q -l buildings --stats with.json --proof "$name.jsonl" "$@" 2>err
+    python3 "$here/check_proof.py" "$name.jsonl" "$source" --layer buildings --result with.gpkg "$@" >said 2>&1 || fail "$name, $*: $(tail -1 said)"
+    for which in with without; do ogr2ogr -q -f CSV $which.csv $which.gpkg buildings -lco GEOMETRY=AS_WKT; done
+    cmp with.csv without.csv || fail "the result of $name depends on whether a proof is written"
     set -- $(for file in with.json without.json "$name.jsonl"; do grep -Eo "\"$told\": [^,]*" $file | head -1 | cut -d ' ' -f 2; done)
     [ "$1" != 0 ] && [ "$1" = "$2" ] && [ "$1" = "$3" ] || fail "the bound of $name with a proof, without one, and in it: $*"
 }

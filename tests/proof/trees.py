@@ -3,7 +3,8 @@ from fractions import Fraction
 from math import isqrt
 
 from bodies import Bodies
-from cover import Beyond, Piece, clip, is_covered, is_nowhere, line_of, square
+from cover import Beyond, Piece, clip, is_covered, is_nowhere, line_of, region_of, square
+from eased import Sloped
 from form import demand, index, shown
 
 
@@ -18,8 +19,11 @@ class Tree(Bodies):
         self.cuts = [{**spring, "d": 0} for spring in told.get("springs", [])]  # as in the file; springs come first
         self.owner = [0] * len(self.cuts)  # for each cut its node
         self.springs = [self.read_spring(spring) for spring in self.cuts]
-        self.exact = {}  # (i, j, n, d, stiffness) of cuts that have been verified; stiffness 0: no spring; j None: fixed ground
+        self.exact = {}  # (i, j, n, d, stiffness, share) of cuts that have been verified; stiffness 0: no spring; j None: fixed ground
         self.reach = {}
+        self.priced = {}  # (i, j): see read_price()
+        for i, j in told.get("eased", ()):
+            self.priced[i, j] = self.read_price(i, j)
 
     def mass(self, i, j):
         return sum(1 / self.weights[k] for k in (i, j) if self.weights[k] is not None)
@@ -29,8 +33,17 @@ class Tree(Bodies):
         demand(self.problem.rows and i != j, "a spring without a row")
         return self.problem.rows.spring(self.bodies[i], self.bodies[j], tuple(map(Fraction, told["n"])), Fraction(told["stiff"]))
 
+    def read_price(self, i, j):
+        """(the pair, linear, square): lacking s costs linear s + square s^2."""
+        one, other = (self.bodies[index(k, len(self.bodies), "body")] for k in (i, j))
+        eased = self.problem.eased
+        demand(eased and frozenset((one, other)) in eased.members, "there is no price of", *one, *other)
+        pair = frozenset((one, other))
+        demand(all(pair != known for known, _, _ in self.priced.values()), "a price that is there twice:", *one, *other)
+        return pair, *eased.price(pair)
+
     def proved(self):
-        return super().proved()._replace(springs=self.springs)
+        return super().proved()._replace(springs=self.springs, prices=[pair for pair, _, _ in self.priced.values()])
 
     # ---- Bounds by forces
 
@@ -50,13 +63,15 @@ class Tree(Bodies):
         if k not in self.exact:
             told = self.cuts[k]
             self.exact[k] = (told["i"], told.get("j"), tuple(map(Fraction, told["n"])), Fraction(told["d"]),
-                             Fraction(told.get("stiff", 0)))
+                             Fraction(told.get("stiff", 0)), Fraction(told.get("share", 0)))
         return self.exact[k]
 
     def push(self, forces):
         """Returns (value, the net force on each body)."""
-        value, net = Fraction(0), {}
-        for (i, j, n, d, stiff), f in forces:
+        value, net, pushed = Fraction(0), {}, {}
+        for (i, j, n, d, stiff, share), f in forces:
+            if share:
+                pushed[i, j] = pushed.get((i, j), 0) + f * share
             own = d - f / (4 * stiff) if stiff else d
             for k, sign in ((i, -1), (j, 1)):
                 if k is None:
@@ -69,7 +84,16 @@ class Tree(Bodies):
         for k, (x, y) in net.items():
             if self.weights[k] is not None:
                 value -= (x * x + y * y) / (4 * self.weights[k])
-        return value, net
+        return value + sum(self.least_price(*self.priced[pair], f) for pair, f in pushed.items()), net
+
+    def least_price(self, pair, linear, square, force):
+        """The least of linear s + square s^2 - force s for all s that the pair may lack."""
+        lacks = (force - linear) / (2 * square)
+        if lacks <= 0:
+            return 0
+        most = self.problem.eased.most(pair)
+        lacks = lacks if most is None else min(lacks, most)
+        return (linear + square * lacks - force) * lacks
 
     def least_at(self, k, net):
         g, a, w = net.get(k, (0, 0)), self.shifts[k], self.weights[k]
@@ -78,17 +102,25 @@ class Tree(Bodies):
     # ---- Regions and pieces
 
     def root(self, i, j):
-        """The square that contains all relative moves that cost less than the bound, in units of the lattice."""
+        """The square that contains all relative moves that cost less than the bound and keep the limits, in units of the lattice."""
         centre = [(self.shifts[j][c] - self.shifts[i][c]) * self.unit for c in (0, 1)]
         squared = max(self.bound, Fraction(0)) * self.mass(i, j) * self.unit ** 2
         reach = isqrt(-(-squared.numerator // squared.denominator)) + 1
+        limits = [self.problem.body_limit(self.bodies[k]) for k in (i, j)]
+        if None not in limits:
+            most = sum(Fraction(v) + sum(map(abs, self.shifts[k])) for k, v in zip((i, j), limits)) * self.unit
+            reach = min(reach, int(most) + 1)
         low = [int(v // 1) - reach for v in centre]
         high = [int(-(-v // 1)) + reach for v in centre]
         self.reach[i, j] = max(map(abs, low + high))
         return square(*low, *high)
 
+    def same_move(self, i, j):
+        """The pair that stands for this one: the move relative to anything that does not move is the same."""
+        return (i, None) if self.weights[j] is None else (i, j)
+
     def region(self, regions, i, j):
-        found = regions.get((i, j))
+        found = regions.get(self.same_move(i, j))
         return self.root(i, j) if found is None else found
 
     def piece(self, k, i, j):
@@ -108,15 +140,37 @@ class Tree(Bodies):
         if told.get("row"):
             demand(problem.rows, "a rule without a row")
             return (i, j), Beyond(line_of(*problem.rows.rule(self.bodies[i], self.bodies[j]), self.unit))
-        shadow = told.get("shadow", False)
+        if "joined" in told:
+            return (i, j), self.read_joined(told)
+        shadow, priced = told.get("shadow", False), told.get("priced", False)
+        if priced:
+            demand((i, j) in self.priced, "a piece of a pair without a price")
+            problem.eased.demand_priced(a, b)
         if shadow:
             parts = problem.demand_shadow(a, told["A"], b, told["B"])
         else:
             self.root(i, j)
             problem.demand_outside(a, b, self.reach[i, j])
             parts = problem.demand_part(a, told["A"]), problem.demand_part(b, told["B"])
-        piece = Piece(*parts, 0 if shadow else problem.clearance(a, b, told.get("clearance")), shadow)
-        return (i, j), piece
+        owed = 0 if shadow else problem.required(a, b) if priced else problem.clearance(a, b, told.get("clearance"))
+        return (i, j), Piece(*parts, owed, shadow, priced)
+
+    def read_joined(self, told):
+        """A polygon that lies in the union of those of priced pieces of the same two things."""
+        of = [self.pieces_told[index(k, len(self.pieces_told), "piece")] for k in told["pieces"]]
+        demand(all(p.get("priced") and all(p[key] == told[key] for key in "ijab") for p in of), "a polygon joined of other pieces")
+        pieces = [self.piece(k, told["i"], told["j"]) for k in told["pieces"]]
+        corners = [self.problem.lattice.point(p) for p in told["joined"]]
+        inner = [Piece(piece.corners, [(0, 0)], 0, False) for piece in pieces]
+        demand(is_covered(region_of(corners), inner), "a joined polygon is not in the union:", told["a"], told["b"])
+        return Piece(corners, [(0, 0)], pieces[0].owed, False, True)
+
+    def check_price(self, region, i, j, n, d, _, share, named):
+        """Fails unless whatever violates the cut is forbidden, or lacks more than the cut says."""
+        demand((i, j) in self.priced, "a cut by the price of a pair without one")
+        line = line_of(n, d, self.unit)
+        pieces = [Sloped(self.piece(k, i, j), n, d, share, self.unit) for k in named]
+        demand(is_covered(clip(region, tuple(-v for v in line)), pieces, Sloped.leaving), "the pair may lack less:", *self.bodies[i], *self.bodies[j])
 
     def demand_covered(self, region, i, j, named):
         demand(is_covered(region, [self.piece(k, i, j) for k in named]), "what is taken away is not forbidden:",
@@ -166,6 +220,9 @@ class Tree(Bodies):
                 continue
             line = line_of(told["n"], told["d"], self.unit)
             region = self.region(regions, i, j)
+            if told["kind"] == "price":
+                self.check_price(region, *self.cut(first + at), told["pieces"])
+                continue
             if told["kind"] == "cone":
                 demand(siblings == 3 and at < 2, "a cone that is no child's first cut")
             elif told["kind"] == "hull":
@@ -175,7 +232,7 @@ class Tree(Bodies):
                     discs = Discs(self, *self.forces_below(node))
                     value = max(value, discs.value)
                 discs.demand_beyond(i, j, line)
-            regions[i, j] = clip(region, line)
+            regions[self.same_move(i, j)] = clip(region, line)
         if "empty" in node:
             i, j = (index(node["empty"][c], len(self.bodies), "body") for c in "ij")
             self.demand_covered(self.region(regions, i, j), i, j, node["empty"]["pieces"])
@@ -184,7 +241,7 @@ class Tree(Bodies):
             value = max(value, self.push(self.read_forces(node["forces"], k))[0])
         return value, regions, False
 
-    def check_limit(self, i, j, n, d, _):
+    def check_limit(self, i, j, n, d, *_):
         """Fails unless -n.t_i >= d excludes no move with |t_i| <= L."""
         limit = self.problem.body_limit(self.bodies[i])
         demand(j is None and limit is not None and d <= 0 and d * d >= (n[0] ** 2 + n[1] ** 2) * Fraction(limit) ** 2,
@@ -236,8 +293,11 @@ class Discs:
 def add_up(trees):
     """The bound that trees prove together, by groups that share no movable body."""
     group_of, total = {}, Fraction(0)
-    by_group, stiff = {}, {}
+    by_group, stiff, priced = {}, {}, set()
     for tree in trees:
+        for pair in tree.prices:
+            demand(pair not in priced, "a price that two trees have")
+            priced.add(pair)
         for key, share, most in tree.springs:
             stiff[key] = stiff.get(key, 0) + share
             demand(stiff[key] <= most, "the shares of a spring are more than its stiffness")

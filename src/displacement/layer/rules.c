@@ -46,8 +46,6 @@ static sunder_status check_ease(const sunder_layer_options *options, sunder_erro
 {
     if (!(options->ease >= 0) || !isfinite(options->ease))
         return sunder_i_fail(err, SUNDER_EARG, "the price of easing, %g, is negative or not finite", options->ease);
-    if (options->ease > 0 && options->keep_trees)
-        return sunder_i_fail(err, SUNDER_EARG, "no trees are kept for a layer whose pairs are eased");
     return SUNDER_OK;
 }
 

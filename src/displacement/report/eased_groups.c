@@ -4,6 +4,9 @@
  * bodies that are in no group. Each group is proved by itself. If two have taken in the same guest, the later one is
  * proved again without it, so that the bounds of groups add up.
  *
+ * If that tree does not come near the cost, each body has a tree of its own, with the prices of its pairs with what
+ * does not move. Their sum, and the least prices of the other pairs, are a bound of the group, too.
+ *
  * Where a pair overlaps, single pieces show less than its depth. So polygons that join pieces (joined_piece.c) are made
  * for the present layout, and then for each layout that a tree finds; the tree is begun again with them. */
 #include "displacement/layer/reads.h"
@@ -23,18 +26,27 @@ typedef struct easing {
     const sunder_report *report;
     sunder_i_solver *solver;
     uint32_t *group_of; /* [bodies] the group of each body, or of the group that has it as a guest; SUNDER_I_NOBODY */
+    sunder_i_group *former; /* [groups] the bounds, trees and guests before, of groups whose bounds were raised here */
 } easing;
 
-/* The bodies and prices of one group. */
+/* The bodies and prices of one group, or of one body, and what was proved of it. */
 typedef struct eased_group {
     sunder_i_list body;
     sunder_i_task_price *price;
     size_t prices, capacity, movers;
+    double pays, cost; /* the prices at the present place; with the cost of moves and springs */
     sunder_i_joined *joined;
     size_t joins, joined_capacity;
+    double bound;
+    sunder_i_list guests;
+    sunder_i_bound_trees trees; /* if they are kept */
 } eased_group;
 
-static void free_eased(eased_group *e) { sunder_i_free_all(e->body.item, e->price, e->joined); }
+static void free_eased(eased_group *e)
+{
+    sunder_i_bound_trees_free(&e->trees);
+    sunder_i_free_all(e->body.item, e->price, e->joined, e->guests.item);
+}
 
 /* ---- What a tree is about ---------------------------------------------------------------------------------------- */
 
@@ -44,7 +56,7 @@ static bool add_parts(const sunder_i_model *model, eased_group *e, uint32_t i, u
     const double home[2] = {0, 0}, limit = sunder_i_limit_of(&model->body[i]);
     const uint32_t whole = sunder_i_whole_of(model, model->member[model->body[j].member]);
     sunder_i_list near = {0};
-    bool ok = limit == INFINITY || sunder_i_bodies_about(model, i, home, limit + model->rules.gap, &near);
+    bool ok = limit == INFINITY || sunder_i_bodies_about(model, i, home, limit + model->rules.full_gap, &near);
     for (size_t k = 0; k < near.n && ok; k++) {
         const sunder_i_body *b = &model->body[near.item[k]];
         if (sunder_i_is_barrier_body(model, b) && sunder_i_whole_of(model, model->member[b->member]) == whole)
@@ -96,6 +108,7 @@ static bool gather_prices(const sunder_report *report, const sunder_i_model *mod
         const sunder_i_price price = sunder_i_price_of(model, p, q);
         const double owed = sunder_i_owed_above(model, model->member[p->member], model->member[q->member]);
         const uint32_t i = place_of(e, l->i), j = place_of(e, l->j);
+        e->pays += sunder_i_price_at(&price, l->missing);
         e->price[e->prices++] =
             (sunder_i_task_price){i < j ? i : j,
                                   i < j ? j : i,
@@ -123,34 +136,33 @@ static bool run_tree(sunder_i_tree *tree, eased_group *e, uint64_t steps, bool l
     return true;
 }
 
-/* Keeps what the tree proves, if it is more than the group's bound. Returns false if memory is out. */
-static bool keep_bound(const sunder_i_model *model, const sunder_i_tree *tree, size_t own, sunder_i_group *g)
+/* Keeps what the tree proves, and the bodies that joined it as guests. Returns false if memory is out. */
+static bool keep_bound(const sunder_i_model *model, const sunder_i_tree *tree, eased_group *e)
 {
-    const double bound = sunder_i_tree_bound(tree);
-    if (!(bound > g->bound)) return true;
-    g->bound = bound;
-    g->guests.n = 0;
-    for (size_t k = own; k < tree->task.n; k++)
-        if (!model->body[tree->body[k]].fixed && !sunder_i_list_push(&g->guests, tree->body[k])) return false;
-    g->guests.n = sunder_i_set_make(g->guests.item, g->guests.n);
-    return true;
+    bool ok = true;
+    e->bound = sunder_i_tree_bound(tree);
+    for (size_t k = e->body.n; k < tree->task.n && ok; k++)
+        if (!model->body[tree->body[k]].fixed) ok = sunder_i_list_push(&e->guests, tree->body[k]);
+    e->guests.n = sunder_i_set_make(e->guests.item, e->guests.n);
+    return ok && (!tree->task.keep || sunder_i_tree_keep(tree, &e->trees));
 }
 
-static bool prove_eased(const easing *x, sunder_i_group *g, eased_group *e)
+/* Proves a bound of what the bodies and prices of *e cost. group: NULL if there are no guests. */
+static bool prove_eased(const easing *x, const sunder_i_group *group, eased_group *e, double steps)
 {
     const sunder_i_model *model = &x->solver->model;
     const sunder_i_waived waived = {.pair = x->solver->groups.waived, .n = x->solver->groups.waived_n};
-    const double steps = EASED_STEPS * sunder_i_max(FEWEST_EASED, (double)e->movers) * model->rules.effort;
     sunder_i_task task = {.model = model,
                           .waived = &waived,
-                          .group_of = x->group_of,
-                          .group = g->number,
+                          .group_of = group ? x->group_of : NULL,
+                          .group = group ? group->number : SUNDER_I_NOBODY,
                           .body = e->body.item,
                           .n = e->body.n,
-                          .goal = g->cost * (1 - EASED_NEAR),
+                          .goal = e->cost * (1 - EASED_NEAR),
                           .all_springs = true,
                           .price = e->price,
-                          .prices = e->prices};
+                          .prices = e->prices,
+                          .keep = model->rules.keep_trees};
     bool ok = true, again = true;
     for (int round = 0; ok && again; round++) {
         sunder_i_tree tree;
@@ -160,22 +172,91 @@ static bool prove_eased(const easing *x, sunder_i_group *g, eased_group *e)
         if (ok && round == 0) ok = sunder_i_tree_join_pieces(&tree, true, &e->joined, &e->joins, &e->joined_capacity);
         again = ok && e->joins > task.joins;
         if (ok && !again) ok = run_tree(&tree, e, (uint64_t)sunder_i_min(steps, 0x1p62), round >= MOST_JOINED, &again);
-        if (ok && !again) ok = keep_bound(model, &tree, e->body.n, g);
+        if (ok && !again) ok = keep_bound(model, &tree, e);
         sunder_i_tree_free(&tree);
     }
     return ok;
 }
 
-static sunder_status prove_group(const easing *x, sunder_i_group *g, sunder_error *err)
+/* Gives the group a greater bound, with its trees and guests. *former: receives what it had before. */
+static void raise_bound(sunder_i_group *g, sunder_i_group *former, eased_group *e)
+{
+    if (!(e->bound > g->bound)) return;
+    if (former->bound < 0) {
+        *former = (sunder_i_group){.bound = g->bound, .trees = g->trees, .guests = g->guests};
+        g->trees = (sunder_i_bound_trees){0};
+        g->guests = (sunder_i_list){0};
+    }
+    const sunder_i_list guests = g->guests;
+    const sunder_i_bound_trees trees = g->trees;
+    g->bound = e->bound;
+    g->guests = e->guests;
+    g->trees = e->trees;
+    e->guests = guests;
+    e->trees = trees;
+}
+
+static void lower_bound(sunder_i_group *g, sunder_i_group *former)
+{
+    sunder_i_free(g->guests.item);
+    sunder_i_bound_trees_free(&g->trees);
+    g->bound = former->bound;
+    g->guests = former->guests;
+    g->trees = former->trees;
+    *former = (sunder_i_group){.bound = -1};
+}
+
+/* Proves a bound of what one body costs with the prices of its pairs with what does not move, and adds it to that of
+ * the whole group. */
+static bool prove_body(const easing *x, uint32_t body, eased_group *all)
 {
     const sunder_i_model *model = &x->solver->model;
+    sunder_i_group alone = {.body = &body, .n = 1, .number = body};
+    const double *t = model->move + 2 * (size_t)body;
     eased_group e = {0};
+    bool ok = gather_bodies(x->report, model, &alone, &e) && gather_prices(x->report, model, &alone, &e);
+    e.cost = model->body[body].weight * (t[0] * t[0] + t[1] * t[1]) + e.pays;
+    if (ok && e.prices) ok = prove_eased(x, NULL, &e, BODY_STEPS);
+    if (ok && e.bound > 0) {
+        all->bound = all->bound > 0 ? nextafter(all->bound + e.bound, -INFINITY) : e.bound;
+        ok = sunder_i_bound_trees_take(&all->trees, &e.trees);
+    }
+    free_eased(&e);
+    return ok;
+}
+
+/* The same for all bodies of the group, with the least prices of its other pairs. */
+static bool prove_bodies(const easing *x, const sunder_i_group *g, eased_group *all)
+{
+    const sunder_report *report = x->report;
+    const sunder_i_model *model = &x->solver->model;
+    double rest = 0;
+    bool ok = true;
+    for (size_t k = 0; k < g->n && ok; k++)
+        if (!model->body[g->body[k]].fixed && report->paying[g->body[k]].pairs) ok = prove_body(x, g->body[k], all);
+    for (size_t k = 0; k < report->eased && ok; k++) {
+        const sunder_i_lacking *l = &report->lacking[k];
+        if (!model->body[l->j].fixed && sunder_i_set_has(g->body, g->n, l->i)) rest += l->alone;
+    }
+    all->bound = (all->bound + rest) * (1 - ((double)report->eased + 8) * 0x1p-50);
+    return ok;
+}
+
+static sunder_status prove_group(const easing *x, sunder_i_group *g, sunder_i_group *former, sunder_error *err)
+{
+    const sunder_i_model *model = &x->solver->model;
+    eased_group e = {.cost = g->cost}, each = {0};
     sunder_i_reading reading;
     sunder_i_reads_begin(&reading, model, g->number);
     bool ok = gather_bodies(x->report, model, g, &e) && gather_prices(x->report, model, g, &e);
-    if (ok && e.prices && e.movers <= MOST_EASED) ok = prove_eased(x, g, &e);
+    const double steps = EASED_STEPS * sunder_i_max(FEWEST_EASED, (double)e.movers) * model->rules.effort;
+    if (ok && e.prices && e.movers <= MOST_EASED && steps > 0) ok = prove_eased(x, g, &e, steps);
+    if (ok) raise_bound(g, former, &e);
+    if (ok && e.prices && g->bound < g->cost * (1 - BODIES_NEAR)) ok = prove_bodies(x, g, &each);
+    if (ok) raise_bound(g, former, &each);
     sunder_i_reads_end(&reading);
     free_eased(&e);
+    free_eased(&each);
     return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
@@ -184,7 +265,8 @@ static sunder_status prove_groups(void *context, size_t begin, size_t end, sunde
     const easing *x = context;
     sunder_status status = SUNDER_OK;
     for (size_t k = begin; k < end && !status; k++)
-        if (x->solver->groups.group[k].cost > 0) status = prove_group(x, &x->solver->groups.group[k], err);
+        if (x->solver->groups.group[k].cost > 0)
+            status = prove_group(x, &x->solver->groups.group[k], &x->former[k], err);
     return status;
 }
 
@@ -201,21 +283,19 @@ static void take_guests(easing *x, const sunder_i_group *g)
     for (size_t m = 0; m < g->guests.n; m++) x->group_of[g->guests.item[m]] = g->number;
 }
 
-/* Gives each guest to one group: to one whose bound was not raised here, or to the first. former: [groups] the bounds
- * before. */
-static sunder_status part_guests(easing *x, const double *former, sunder_error *err)
+/* Gives each guest to one group: to one whose bound was not raised here, or to the first. */
+static sunder_status part_guests(easing *x, sunder_error *err)
 {
     sunder_i_groups *groups = &x->solver->groups;
     sunder_status status = SUNDER_OK;
     for (size_t k = 0; k < groups->n; k++)
-        if (!(groups->group[k].bound > former[k])) take_guests(x, &groups->group[k]);
+        if (x->former[k].bound < 0) take_guests(x, &groups->group[k]);
     for (size_t k = 0; k < groups->n && !status; k++) {
         sunder_i_group *g = &groups->group[k];
-        if (!(g->bound > former[k])) continue;
+        if (x->former[k].bound < 0) continue;
         if (shares_guest(x, g)) {
-            g->bound = former[k];
-            g->guests.n = 0;
-            status = prove_group(x, g, err);
+            lower_bound(g, &x->former[k]);
+            status = prove_group(x, g, &x->former[k], err);
         }
         take_guests(x, g);
     }
@@ -225,15 +305,16 @@ static sunder_status part_guests(easing *x, const double *former, sunder_error *
 sunder_status sunder_i_report_eased_groups(const sunder_report *report, sunder_i_solver *solver, sunder_error *err)
 {
     sunder_i_groups *groups = &solver->groups;
-    easing x = {report, solver, sunder_i_alloc(solver->model.bodies, sizeof *x.group_of)};
-    double *former = sunder_i_alloc(groups->n, sizeof *former);
-    sunder_status status = x.group_of && former ? SUNDER_OK : sunder_i_failure_cause(err);
+    easing x = {report, solver, sunder_i_alloc(solver->model.bodies, sizeof *x.group_of),
+                sunder_i_alloc(groups->n, sizeof *x.former)};
+    sunder_status status = x.group_of && x.former ? SUNDER_OK : sunder_i_failure_cause(err);
     if (!status) {
         memcpy(x.group_of, groups->of, solver->model.bodies * sizeof *x.group_of);
-        for (size_t k = 0; k < groups->n; k++) former[k] = groups->group[k].bound;
+        for (size_t k = 0; k < groups->n; k++) x.former[k] = (sunder_i_group){.bound = -1};
         status = sunder_i_parallel(solver->model.rules.threads, groups->n, 1, prove_groups, &x, err);
+        if (!status) status = part_guests(&x, err);
+        for (size_t k = 0; k < groups->n; k++) sunder_i_group_free(&x.former[k]);
     }
-    if (!status) status = part_guests(&x, former, err);
-    sunder_i_free_all(x.group_of, former);
+    sunder_i_free_all(x.group_of, x.former);
     return status;
 }

@@ -2,12 +2,7 @@
  *
  * A pair is two bodies, or a body and a barrier, of which one may move. It lacks the most that a conflict between its
  * members lacks. Let a conflict lack s at home. After a relative move of length r it lacks at least s - r, and r is at
- * most the sum of the limits. The price of the rest is what the pair has to pay wherever it goes.
- *
- * A body whose pairs are with barriers or fixed bodies pays for its own move besides: if it moves by r, w r^2 and the
- * prices of s - r for all of these pairs. The least of that over r is a bound of what the body costs. It is a convex
- * function of r, so the minimum lies between two places that are found by bisection, and is at least what the slope at
- * the first of them leaves possible. */
+ * most the sum of the limits. The price of the rest is what the pair has to pay wherever it goes. */
 #include "displacement/layer/barrier_pairs.h"
 #include "displacement/layer/prices.h"
 #include "displacement/layer/reads.h"
@@ -21,8 +16,6 @@
 
 /* A share by which sums and products of a few doubles are rounded at most. */
 #define ROUNDED 0x1p-48
-/* The bisections of an interval, after which its ends are neighbouring doubles, or nearly. */
-enum { BISECTIONS = 60 };
 
 static int by_bodies(const void *a, const void *b)
 {
@@ -61,78 +54,21 @@ static sunder_status measure_conflict(const sunder_i_model *model, const sunder_
     const uint32_t i = model->body_of[c->a], j = model->body_of[c->b];
     const bool swap = !sunder_i_may_move(&model->body[i]);
     const double slack = sunder_i_full_above(model, (uint32_t)c->a, (uint32_t)c->b) - c->required;
-    *out = (sunder_i_lacking){swap ? j : i, swap ? i : j, c->missing + slack, 0};
+    *out = (sunder_i_lacking){swap ? j : i, swap ? i : j, c->missing + slack, 0, 0};
     return missing_at_home(model, c, &out->home, err);
 }
 
 /* Adds a pair, given by its worst conflicts, to what its first body pays. */
-static void add_pair(const sunder_i_model *model, const sunder_i_lacking *pair, sunder_i_paying *paying)
+static void add_pair(const sunder_i_model *model, sunder_i_lacking *pair, sunder_i_paying *paying)
 {
     const sunder_i_body *p = &model->body[pair->i], *q = &model->body[pair->j];
     const sunder_i_price price = sunder_i_price_of(model, p, q);
     const double rest = pair->home - (sunder_i_limit_of(p) + sunder_i_limit_of(q)) * (1 + ROUNDED);
-    const double pays = sunder_i_price_at(&price, pair->missing),
-                 alone = rest > 0 ? sunder_i_price_at(&price, rest) * (1 - ROUNDED) : 0;
+    pair->alone = rest > 0 ? sunder_i_price_at(&price, rest) * (1 - ROUNDED) : 0;
     paying->pairs++;
     paying->missing += pair->missing;
-    paying->pays += pays;
-    paying->alone += alone;
-    if (!q->fixed) paying->own += alone;
-}
-
-/* The cost of the first body of n pairs with fixed bodies if it moves by r, and the slope there. */
-static double cost_after(const sunder_i_model *model, const sunder_i_lacking *pair, size_t n, double r, double *slope)
-{
-    const sunder_i_body *body = &model->body[pair->i];
-    double cost = body->weight * r * r;
-    *slope = 2 * body->weight * r;
-    for (size_t k = 0; k < n; k++) {
-        const sunder_i_price price = sunder_i_price_of(model, body, &model->body[pair[k].j]);
-        const double rest = pair[k].home - r;
-        if (!model->body[pair[k].j].fixed || !(rest > 0)) continue;
-        cost += sunder_i_price_at(&price, rest);
-        *slope -= price.linear + 2 * price.square * rest;
-    }
-    return cost;
-}
-
-/* A lower bound of that for any r within the body's limit. */
-static double least_after(const sunder_i_model *model, const sunder_i_lacking *pair, size_t n)
-{
-    double low = 0, farthest = 0, slope;
-    for (size_t k = 0; k < n; k++) farthest = sunder_i_max(farthest, pair[k].home);
-    double high = sunder_i_min(farthest, sunder_i_limit_of(&model->body[pair->i]));
-    for (int k = 0; k < BISECTIONS; k++) {
-        const double middle = low + (high - low) / 2;
-        cost_after(model, pair, n, middle, &slope);
-        *(slope < 0 ? &low : &high) = middle;
-    }
-    const double cost = cost_after(model, pair, n, low, &slope);
-    return (cost + sunder_i_min(0, slope) * (high - low)) * (1 - ROUNDED * (double)(n + 8));
-}
-
-/* Sets *own to the greatest bound that is known of what the body costs, with its n pairs. */
-static bool bound_body(const sunder_i_model *model, const sunder_i_lacking *pair, size_t n, double *own)
-{
-    const sunder_i_body *body = &model->body[pair->i];
-    const double *t = model->move + 2 * (size_t)pair->i;
-    sunder_i_priced_barrier *priced = sunder_i_alloc(n, sizeof *priced);
-    double enough = body->weight * (t[0] * t[0] + t[1] * t[1]), bound = 0;
-    size_t barriers = 0;
-    for (size_t k = 0; k < n && priced; k++) {
-        const sunder_i_body *other = &model->body[pair[k].j];
-        if (!sunder_i_is_barrier_body(model, other)) continue;
-        priced[barriers] =
-            (sunder_i_priced_barrier){model->member[other->member], sunder_i_price_of(model, body, other)};
-        enough += sunder_i_price_at(&priced[barriers++].price, pair[k].missing);
-    }
-    sunder_i_reading reading;
-    sunder_i_reads_begin(&reading, model, pair->i);
-    const bool ok = priced && (!barriers || sunder_i_body_bound(model, pair->i, priced, barriers, enough, &bound));
-    sunder_i_reads_end(&reading);
-    *own = sunder_i_max(bound * (1 - ROUNDED * (double)(n + 8)), least_after(model, pair, n));
-    sunder_i_free(priced);
-    return ok;
+    paying->pays += sunder_i_price_at(&price, pair->missing);
+    paying->alone += pair->alone;
 }
 
 static bool is_priced(const sunder_i_model *model, const sunder_conflict *c)
@@ -153,18 +89,11 @@ static size_t merge_conflicts(sunder_i_lacking *list, size_t n)
     return out;
 }
 
-static bool add_pairs(sunder_report *report, const sunder_i_model *model, const sunder_i_lacking *list, size_t n)
+static void add_pairs(sunder_report *report, const sunder_i_model *model)
 {
-    bool ok = true;
-    for (size_t k = 0, next; k < n && ok; k = next) {
-        sunder_i_paying *paying = &report->paying[list[k].i];
-        for (next = k; next < n && list[next].i == list[k].i; next++) add_pair(model, &list[next], paying);
-        double own;
-        ok = bound_body(model, list + k, next - k, &own);
-        paying->own += own;
-        paying->alone *= 1 - ROUNDED * (double)(next - k);
-    }
-    return ok;
+    for (size_t k = 0; k < report->eased; k++)
+        add_pair(model, &report->lacking[k], &report->paying[report->lacking[k].i]);
+    for (size_t b = 0; b < model->bodies; b++) report->paying[b].alone *= 1 - ROUNDED * (double)report->paying[b].pairs;
 }
 
 /* Adds up what all bodies pay. The sums are exact until they are rounded once, as those of the bounds are. */
@@ -193,7 +122,7 @@ static void add_rows(const sunder_i_model *model, sunder_i_lacking *list, size_t
             const double missing = side->full - ((s[0] - t[0]) * side->along[0] + (s[1] - t[1]) * side->along[1]);
             const bool swap = !sunder_i_may_move(&model->body[i]);
             if (side->other < i || !(missing > 0)) continue;
-            list[(*n)++] = (sunder_i_lacking){swap ? side->other : i, swap ? i : side->other, missing, side->full};
+            list[(*n)++] = (sunder_i_lacking){swap ? side->other : i, swap ? i : side->other, missing, side->full, 0};
         }
     }
 }
@@ -214,7 +143,7 @@ sunder_status sunder_i_report_eased(sunder_report *report, const sunder_i_model 
     if (!status && n) qsort(list, n, sizeof *list, by_bodies);
     report->lacking = list;
     report->eased = status ? 0 : merge_conflicts(list, n);
-    if (!status && !add_pairs(report, model, list, report->eased)) status = sunder_i_failure_cause(err);
+    if (!status) add_pairs(report, model);
     if (!status) add_up(report, model->bodies);
     return status;
 }

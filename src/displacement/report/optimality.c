@@ -10,8 +10,6 @@
 #include "displacement/report/report.h"
 #include "displacement/solve/clusters/cluster_stages.h"
 
-#include "base/extremes.h"
-
 /* Makes the group the owner of its movable bodies, guests included. Returns false if another group owned one of
  * them. */
 static bool claim_bodies(const sunder_i_model *model, const sunder_i_group *g, uint32_t *owner)
@@ -71,16 +69,13 @@ static double cost_of(const sunder_i_model *model, const sunder_i_group *g, cons
     return cost * (1 + ((double)g->n + 8) * 0x1p-50);
 }
 
-/* Adds the least prices to the bound of the group's moves; or its bodies' own bounds take its place, if they are
- * greater. */
-static void bound_prices(sunder_i_group *g, const sunder_i_paying *paying)
+/* Adds the least prices to the bound of the group's moves. */
+static void add_prices(sunder_i_group *g, const sunder_i_paying *paying)
 {
-    double alone = 0, own = 0;
-    for (size_t k = 0; k < g->n; k++) {
-        alone += paying[g->body[k]].alone;
-        own += paying[g->body[k]].own;
-    }
-    if (alone > 0 || own > 0) g->bound = sunder_i_max(g->bound + alone, own) * (1 - ((double)g->n + 8) * 0x1p-50);
+    double alone = 0;
+    if (!(g->bound > 0)) sunder_i_bound_trees_free(&g->trees); /* they do not hold */
+    for (size_t k = 0; k < g->n; k++) alone += paying[g->body[k]].alone;
+    if (alone > 0) g->bound = (g->bound + alone) * (1 - ((double)g->n + 8) * 0x1p-50);
 }
 
 /* Sets the bound of each group to 0 if it does not hold for the result (claim_bodies(), void_bounds()). Computes the
@@ -100,9 +95,9 @@ static sunder_status count_groups(sunder_report *report, sunder_i_solver *s, sun
     for (size_t k = 0; k < s->groups.n && ok; k++) {
         sunder_i_group *g = &s->groups.group[k];
         g->cost = cost_of(&s->model, g, report->paying);
-        if (report->paying) bound_prices(g, report->paying);
+        if (report->paying) add_prices(g, report->paying);
     }
-    if (!status && report->eased && s->model.rules.effort > 0) status = sunder_i_report_eased_groups(report, s, err);
+    if (!status && report->eased) status = sunder_i_report_eased_groups(report, s, err);
     for (size_t k = 0; k < s->groups.n && !status; k++)
         report->summary.clusters_optimal += s->model.rules.effort > 0 && sunder_i_group_is_optimal(&s->groups.group[k]);
     return status;

@@ -21,13 +21,13 @@ typedef struct sunder_i_paying {
     size_t pairs;
     double missing;     /* what they lack, in sum */
     double pays, alone; /* at the present place; at least, whatever place each pair has */
-    double own;         /* a lower bound of these prices together with the cost of the body's move */
 } sunder_i_paying;
 
 /* What a pair of bodies lacks. The first may move; a barrier has the body of its first part. */
 typedef struct sunder_i_lacking {
     uint32_t i, j;
     double missing, home; /* at the present place; at home, rounded down */
+    double alone;         /* the least price, whatever place the two have */
 } sunder_i_lacking;
 
 struct sunder_report {
@@ -39,9 +39,9 @@ struct sunder_report {
     sunder_conflict *conflict;
     size_t conflicts;
     sunder_conflict *tight; /* [summary.tight] pairs that are tight, until they become part of the list of conflicts */
-    size_t *blocker;      /* the array into which blocked_by of all conflicts points */
-    sunder_proof **proof; /* [conflicts] NULL where there is no proof; the array is NULL in a check */
-    bool stripped;        /* proofs contain only the features that they name */
+    size_t *blocker;        /* the array into which blocked_by of all conflicts points */
+    sunder_proof **proof;   /* [conflicts] NULL where there is no proof; the array is NULL in a check */
+    bool stripped;          /* proofs contain only the features that they name */
     sunder_bound_pair *bound_pair;
     size_t bound_pairs;
     sunder_bound_tree *bound_tree;
@@ -131,20 +131,6 @@ sunder_status sunder_i_report_eased(sunder_report *report, const sunder_i_model 
 
 /* Raises the bounds of the groups with eased pairs by trees. The costs of the groups and the waivers are known. */
 sunder_status sunder_i_report_eased_groups(const sunder_report *report, sunder_i_solver *solver, sunder_error *err);
-
-/* ---- body_bound.c ------------------------------------------------------------------------------------------------ */
-
-/* A barrier that a body is in conflict with, by its first part. */
-typedef struct sunder_i_priced_barrier {
-    uint32_t whole;
-    sunder_i_price price;
-} sunder_i_priced_barrier;
-
-/* Sets *bound to a lower bound of what the body costs with the prices of these n pairs, while it keeps clear of all
- * other barriers. The search for it ends at `enough`, which it is known to cost. 0: nothing is known. Returns false if
- * memory is out. */
-bool sunder_i_body_bound(const sunder_i_model *model, uint32_t body, const sunder_i_priced_barrier *priced, size_t n,
-                         double enough, double *bound);
 
 /* ---- cover_diagonals.c ------------------------------------------------------------------------------------------- */
 

@@ -6,7 +6,7 @@
 
 /* SUNDER_I_REPORT_TUNING_VERSION is the version of the values below. It is raised with each change of a value, so that
  * a record can name the values by their version (tests/house/TUNING). */
-#define SUNDER_I_REPORT_TUNING_VERSION 6
+#define SUNDER_I_REPORT_TUNING_VERSION 7
 
 /* ---- Proofs that there is no room (no_room.c) -------------------------------------------------------------------- */
 
@@ -62,6 +62,9 @@
 #define FEWEST_EASED 16.
 #define MOST_JOINED 32
 #define EASED_NEAR 0x1p-21
+/* If more than the share BODIES_NEAR of the cost is missing, each body has a tree with BODY_STEPS steps. */
+#define BODIES_NEAR 0x1p-10
+#define BODY_STEPS 1e6
 /* Prices are reduced by the share PRICE_ROOM, more than the rounding errors of their computation. A pair may lack more
  * than at the start by the share MOST_ROOM: at a few places that fit without any room no program would have a
  * solution in doubles. */
@@ -186,11 +189,5 @@
 /* A feature still rests against another one if their distance exceeds the gap by at most the share RESTING of the gap
  * or of the feature's size, whichever is greater. */
 #define RESTING 0x1p-20
-
-/* ---- Bounds of prices (body_bound.c) ----------------------------------------------------------------------------- */
-
-/* At most MOST_SQUARES squares for a body; fewer if the bound comes within the share NEARLY_ENOUGH of what it costs. */
-#define MOST_SQUARES 1500 /* fixed: the size of an array */
-#define NEARLY_ENOUGH 1e-3
 
 #endif

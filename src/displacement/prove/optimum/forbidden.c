@@ -202,7 +202,8 @@ static bool add_piece(listing *l, const sunder_i_body_piece *a, const sunder_i_b
     sunder_i_forbidden_piece piece;
     size_t n;
     if (!begin_piece(l, a, b, &piece, &n)) return false;
-    piece.radius = sunder_i_owed_below(l->model, a->feature, b->feature);
+    piece.radius = l->priced ? sunder_i_full_below(l->model, a->feature, b->feature)
+                             : sunder_i_owed_below(l->model, a->feature, b->feature);
     piece.priced = l->priced;
     if (waiver && !l->priced) {
         piece.radius = sunder_i_min(piece.radius, sunder_i_max(0, sunder_i_waiver_clearance(waiver)));
@@ -213,13 +214,13 @@ static bool add_piece(listing *l, const sunder_i_body_piece *a, const sunder_i_b
     return true;
 }
 
-/* Has the pair of pieces a price? Two pieces without area have none: they are not deep in each
- * other where they cross. */
+/* Has the pair of pieces a price? With a least gap every pair may have one. Two pieces without area have none: they are
+ * not deep in each other where they cross. */
 static bool has_price(const listing *l, const sunder_i_body_piece *a, const sunder_i_body_piece *b,
                       const sunder_i_waiver *waiver)
 {
     const uint32_t f = a->feature, g = b->feature;
-    return waiver && (a->corners > 2 || b->corners > 2) &&
+    return (waiver || sunder_i_has_slack(l->model)) && (a->corners > 2 || b->corners > 2) &&
            (sunder_i_is_barrier(l->model, f) || sunder_i_is_barrier(l->model, g) ||
             !sunder_i_is_included(l->model, f < g ? f : g, f < g ? g : f));
 }
@@ -228,7 +229,7 @@ static bool is_full(const listing *l) { return l->out->pieces > l->most; }
 
 static bool add_pieces(listing *l)
 {
-    const double gap = l->model->rules.gap, *w = l->window;
+    const double gap = l->priced ? l->model->rules.full_gap : l->model->rules.gap, *w = l->window;
     for (uint32_t k = 0; k < l->p->pieces && !is_full(l); k++) {
         const sunder_i_body_piece *a = &l->of_p->piece[k];
         const double box[4] = {a->box[0] - l->offset[0] - w[2] - gap, a->box[1] - l->offset[1] - w[3] - gap,
@@ -597,9 +598,8 @@ bool sunder_i_forbidden_add_chord(sunder_i_forbidden *forbidden, const sunder_i_
     sunder_i_box_of_segment(made->corner, made->corner + 2, made->piece.box);
     made->next = forbidden->chord;
     forbidden->chord = made;
-    const bool ok = swapped
-                        ? sunder_i_forbidden_add_shadow(forbidden, model, part, mover, reach, &made->piece, anchor)
-                        : sunder_i_forbidden_add_shadow(forbidden, model, mover, part, reach, anchor, &made->piece);
+    const bool ok = swapped ? sunder_i_forbidden_add_shadow(forbidden, model, part, mover, reach, &made->piece, anchor)
+                            : sunder_i_forbidden_add_shadow(forbidden, model, mover, part, reach, anchor, &made->piece);
     if (ok && forbidden->pieces > before) memcpy(forbidden->piece[before].side, side, 2 * sizeof *side);
     return ok;
 }

@@ -16,10 +16,10 @@ typedef struct sunder_i_forbidden_piece {
     bool row;                         /* it is the half-plane of the rule of rows; a and b are any pieces of the two */
     bool priced; /* it forbids nothing, but has a price: a move lacks at least the radius less its distance from K, or
                   * plus its depth in K */
-    bool joined;      /* it is priced, and K lies in the union of the sets K of other pieces of the same features */
+    bool joined; /* it is priced, and K lies in the union of the sets K of other pieces of the same features */
     double clearance; /* NAN: the full distance is required; else the clearance to which the pair is held instead
                        * (layer/requirement.h) */
-    uint32_t side[2];         /* if they differ: it is the shadow of a chord, and lies in these two pieces */
+    uint32_t side[2]; /* if they differ: it is the shadow of a chord, and lies in these two pieces */
     double radius, vague;
     double box[4];            /* of the grown K */
     double middle[2], within; /* a disc around `middle` with radius `within` that lies in the grown K, up to rounding;
@@ -48,9 +48,9 @@ typedef struct sunder_i_forbidden {
     sunder_i_obstacle_edge *edge;
     size_t edges, edge_capacity;
     sunder_i_chord_piece *chord; /* a list; owned */
-    sunder_i_box_tree tree; /* over the pieces, if they are many; else its box is NULL */
-    double size;            /* a bound of the coordinates of the grown pieces and of points that are tested */
-    double grain;           /* more than the rounding error of a point, distance or product of that size */
+    sunder_i_box_tree tree;      /* over the pieces, if they are many; else its box is NULL */
+    double size;                 /* a bound of the coordinates of the grown pieces and of points that are tested */
+    double grain;                /* more than the rounding error of a point, distance or product of that size */
 } sunder_i_forbidden;
 
 /* A pair that the report lists as remaining in conflict: things a < b. A barrier is represented by its first part,
@@ -124,6 +124,10 @@ bool sunder_i_forbidden_add_joined(sunder_i_forbidden *forbidden, const sunder_i
  * `more`; otherwise *any becomes false. Returns false if memory is out. */
 bool sunder_i_join_pieces(const sunder_i_model *model, const sunder_i_forbidden *pieces, uint32_t f, uint32_t g,
                           const double u[2], double more, sunder_i_joined *out, bool *any, uint64_t *steps);
+/* Sets used[k] for the pieces in whose union a joined one lies: those that prove it, or all of its two things. Returns
+ * false if memory is out. */
+bool sunder_i_joined_find_parts(const sunder_i_model *model, const sunder_i_forbidden *pieces, uint32_t joined,
+                                bool *used);
 
 /* ---- shut_in.c --------------------------------------------------------------------------------------------------- */
 

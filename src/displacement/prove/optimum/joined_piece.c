@@ -129,3 +129,28 @@ bool sunder_i_join_pieces(const sunder_i_model *model, const sunder_i_forbidden 
     sunder_i_free(inner.piece);
     return true;
 }
+
+bool sunder_i_joined_find_parts(const sunder_i_model *model, const sunder_i_forbidden *pieces, uint32_t joined,
+                                bool *used)
+{
+    const sunder_i_forbidden_piece *p = &pieces->piece[joined];
+    const uint32_t f = sunder_i_whole_of(model, p->a->feature), g = sunder_i_whole_of(model, p->b->feature);
+    sunder_i_forbidden inner;
+    sunder_i_region region = {.n = p->edges};
+    uint64_t steps = 0;
+    for (uint32_t k = 0; k < p->edges; k++)
+        memcpy(region.xy + 2 * k, pieces->edge[p->edge + k].from, 2 * sizeof *region.xy);
+    bool ok = find_inner(model, pieces, f, g, &inner);
+    bool *of_inner = sunder_i_calloc(inner.pieces, sizeof *of_inner);
+    if (ok && of_inner) {
+        const bool known = sunder_i_region_is_covered(&region, &inner, of_inner, NULL, &steps);
+        for (size_t k = 0, m = 0; k < pieces->pieces && m < inner.pieces; k++) {
+            if (pieces->piece[k].edge != inner.piece[m].edge) continue;
+            used[k] = !known || of_inner[m];
+            m++;
+        }
+    }
+    ok = ok && of_inner;
+    sunder_i_free_all(inner.piece, of_inner);
+    return ok;
+}

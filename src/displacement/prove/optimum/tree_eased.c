@@ -29,7 +29,8 @@ static bool find_parts(const sunder_i_tree *t, uint32_t i, uint32_t j, double re
     const double home[2] = {0, 0};
     near->n = 0;
     if (!sunder_i_is_barrier_body(model, q)) return sunder_i_list_push(near, t->body[j]);
-    if (!sunder_i_bodies_about(model, (uint32_t)(p - model->body), home, reach + model->rules.gap, near)) return false;
+    if (!sunder_i_bodies_about(model, (uint32_t)(p - model->body), home, reach + model->rules.full_gap, near))
+        return false;
     const uint32_t whole = sunder_i_whole_of(model, model->member[q->member]);
     size_t out = 0;
     for (size_t k = 0; k < near->n; k++) {
