@@ -77,7 +77,7 @@ class Checker:
         self.problem = Problem(options.input, options)
         if options.row_stiffness:
             self.problem.rows = Rows(self.problem, options.row_stiffness)
-        self.problem.eased = Eased(self.problem, options.ease) if options.ease else None
+        self.problem.eased = Eased(self.problem, options.ease)
         self.known, self.kept, self.held = {}, set(), {}
         self.result = Result(self.problem, options.result) if options.result else None
 
@@ -87,8 +87,7 @@ class Checker:
         check_header(proof.head, problem.options, problem.name)
         problem.blocks.demand_all(proof.blocks)
         problem.list_conflicts(proof.conflicts)
-        if problem.eased:
-            problem.eased.list_conflicts(proof.conflicts)
+        problem.eased.list_conflicts(proof.conflicts)
         demand(problem.rows or not proof.rows, "rows, where none are looked for")
         if problem.rows:
             problem.rows.demand_all(proof.rows)
@@ -99,9 +98,7 @@ class Checker:
                 found.append(self.once(told, listed, self.check_tree))
             else:
                 proved += self.once(told, listed, self.check_verdict)
-        total, bound = trees.add_up(found), proof.head["lower_bound"]
-        if problem.eased:
-            total += problem.eased.rest({pair for tree in found for pair in tree.prices})
+        total, bound = trees.add_up(found) + problem.eased.rest({pair for tree in found for pair in tree.prices}), proof.head["lower_bound"]
         demand(total >= bound, "the bound proved is", shown(total), "and not", bound)
         said = (f"bound {bound:.9g}: {len(found)} trees, {sum(t.nodes for t in found)} nodes, {sum(t.cuts for t in found)} cuts; "
                 f"{len(proof.blocks)} blocks; {proved} of {len(proof.conflicts)} conflicts with proofs; ")

@@ -26,12 +26,12 @@ def root_above(value):
 
 class Eased:
     def __init__(self, problem, ease):
-        self.problem, self.ease, self.members, self.known = problem, Fraction(ease), {}, {}
+        self.problem, self.ease, self.members, self.known = problem, Fraction(ease or 0), {}, {}
 
     def list_conflicts(self, conflicts):
         """Conflicts, as the file lists them, between two of which one moves, unless they may overlap."""
         self.members = {}
-        for told in conflicts:
+        for told in conflicts if self.ease else ():
             a, b = told["a"], told["b"]
             if not told.get("inside_block") and told["reason"] != "kept" and (self.problem.may_move(a) or self.problem.may_move(b)):
                 self.members.setdefault(self.pair(a, b), []).append((a, b))
@@ -42,10 +42,8 @@ class Eased:
     def pair(self, a, b):
         return frozenset((self.body(a), self.body(b)))
 
-    def demand_priced(self, a, b):
-        """Fails unless a conflict of the two is one of those by which a tree may say what their bodies lack."""
-        demand((a, b) in self.members.get(self.pair(a, b), ()) or (b, a) in self.members.get(self.pair(a, b), ()),
-               a, "and", b, "have no price")
+    def demand_no_deeper(self, a, b):
+        """Fails if one of the two lay in the other: then they may come to lack more than at the start."""
         demand(not self.problem.how_it_stood(a, b)[2], a, "and", b, "may come to lie deeper in each other")
 
     def price(self, pair):

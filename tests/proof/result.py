@@ -23,7 +23,7 @@ class Result:
         self.check_conflicts(conflicts)
         cost = sum(Fraction(self.problem.weight(fid)) * self.square(fid) for fid in self.moved())
         cost += self.problem.rows.cost(self.moves.get) if self.problem.rows else 0
-        cost += self.problem.eased.cost(self.moves.get) if self.problem.eased else 0
+        cost += self.problem.eased.cost(self.moves.get)
         demand(total <= cost, "a bound of", shown(total), "is more than what the result costs:", shown(cost))
         return f"the result costs {float(cost):.9g}; {compared} anchors are those of the result"
 
