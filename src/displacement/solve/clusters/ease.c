@@ -4,10 +4,11 @@
  *
  * There are two remedies if the check refuses a pair. If it is a pair of two clusters, these become one. If it is one
  * within the cluster, rounding made it a little worse: its bodies are pinned where they stand, and the cluster is eased
- * again. Bodies that are in the way of a cluster join it, too, and so do those that it has come nearer to than the full
- * gap. */
+ * again. So is a body whose move cannot be exact. Bodies that are in the way of a cluster join it, too, and so do those
+ * that it has come nearer to than the full gap. */
 #include "base/extremes.h"
 #include "base/union_find.h"
+#include "displacement/layer/rounding.h"
 #include "displacement/solve/clusters/cluster_stages.h"
 #include "displacement/solve/clusters/trial.h"
 #include "displacement/solve/clusters/tuning.h"
@@ -113,6 +114,21 @@ static bool pin_pair(sunder_i_solver *s, uint32_t i, uint32_t j)
     return any;
 }
 
+/* Pins the bodies of the cluster whose eased moves cannot be exact (layer/rounding.h), so that they do not keep the
+ * others from moving. Returns whether there are any. */
+static bool pin_inexact(sunder_i_solver *s, const sunder_i_cluster *c, const double *move)
+{
+    bool any = false;
+    for (size_t k = 0; k < c->n; k++) {
+        sunder_i_body *b = &s->model.body[c->body[k]];
+        const double *to = move + 2 * k, *at = s->model.move + 2 * (size_t)c->body[k];
+        if (!sunder_i_may_move(b) || (to[0] == at[0] && to[1] == at[1])) continue;
+        b->pinned = !sunder_i_is_exact_move(&s->model, c->body[k], to);
+        any = any || b->pinned;
+    }
+    return any;
+}
+
 /* Is the body one of another cluster? */
 static bool is_foreign(const sunder_i_solver *s, const sunder_i_cluster *c, uint32_t body)
 {
@@ -140,11 +156,15 @@ static sunder_status refuse_pair(sunder_i_solver *s, sunder_i_cluster *c, const 
 /* Moves the bodies of a cluster to where they are eased, if the exact check lets them stay there. */
 static sunder_status try_moves(sunder_i_solver *s, sunder_i_cluster *c, bool *again, sunder_error *err)
 {
-    const double none[2] = {0, 0};
+    const double none[2] = {0, 0}, *move = s->move + 2 * (size_t)(c->body - s->body);
     sunder_i_trial t = {.solver = s, .whole_rows = true};
     sunder_i_reading reading;
+    if (pin_inexact(s, c, move)) {
+        *again = true;
+        return SUNDER_OK;
+    }
     sunder_i_reads_begin(&reading, &s->model, sunder_i_reader_for(s, c));
-    sunder_status status = sunder_i_trial_take_moved(&t, c, s->move + 2 * (size_t)(c->body - s->body))
+    sunder_status status = sunder_i_trial_take_moved(&t, c, move)
                                ? SUNDER_OK
                                : sunder_i_failure_cause(err);
     if (!status && t.n) status = sunder_i_trial_place(&t, none, err);
