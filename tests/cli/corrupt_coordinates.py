@@ -18,8 +18,8 @@ BEYOND = ["1.4e8", "3e8", "6e8", "1e9", "2e9", "4e9"]  # beyond any on the Earth
 NEARER = ["1e10", "1e11", "5e11", "1e12", "2e12", "5e12", "1e13", "1e14", "1e15"]
 FARTHER = ["1e16", "1e17", "1e20", "1e30", "1e100", "1.7e308", "1.7976931348623157e308"]
 FIXED = ["--fixed-where", "kind = 'wild'"]
-# (seed, case, number of the kind) of layers in which houses beside a fixed feature cost more with its vertex at 1e9 than at 1e8
-AGAIN = [(4, 0, 3), (4, 1, 0), (2, 2, 1), (6, 0, 1), (9, 0, 3)]
+# (seed, case, number of the kind) of layers in which houses beside a fixed feature cost more with its vertex beyond 1e8 than at 1e8
+AGAIN = [(4, 0, 3), (4, 1, 0), (2, 2, 1), (6, 0, 1), (9, 0, 3), (32, 0, 1), (37, 0, 1)]
 
 
 def polygon(points):

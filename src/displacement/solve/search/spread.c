@@ -12,7 +12,9 @@
 #include <math.h>
 #include <string.h>
 
-/* The mean of the anchors of the body's members, relative to the origin of the first body. */
+/* The mean of the anchors of the body's members, relative to the origin of the first body. For a body with far corners
+ * its origin stands for it: the anchor may be outside of the window (../../layer/far_corners.c), and bodies that spread
+ * from there pass the end of the window. */
 static void anchor_of(sunder_i_search *s, uint32_t k, double out[2])
 {
     const sunder_i_model *model = s->model;
@@ -21,7 +23,7 @@ static void anchor_of(sunder_i_search *s, uint32_t k, double out[2])
     uint32_t n = 0;
     out[0] = out[1] = 0;
     if (!pieces) s->failed = true;
-    for (uint32_t m = 0; m < b->members && pieces; m++) {
+    for (uint32_t m = 0; m < b->members && pieces && !b->far; m++) {
         const sunder_i_body_piece *anchor = &pieces->anchor[m];
         if (!anchor->corners) continue;
         for (int c = 0; c < 2; c++) out[c] += anchor->box[c];
