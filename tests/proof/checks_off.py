@@ -19,6 +19,7 @@ from collections import defaultdict
 
 import bodies
 import decided
+import eased
 import false_proofs
 import forgeries
 import form
@@ -29,7 +30,7 @@ import rows
 import trees
 import verdicts
 
-MODULES = {m.__name__ + ".py": m for m in (trees, bodies, prices, verdicts, decided, problem, rows)}
+MODULES = {m.__name__ + ".py": m for m in (trees, bodies, prices, verdicts, decided, problem, rows, eased)}
 ENDLESS = {"a node has two parents:"}  # without this test the search would not end
 UNSEEN = {
     "a side, where there is no limit": "of two anchors that lines shut in, but for a narrow way far away: no case is made",

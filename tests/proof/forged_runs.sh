@@ -19,14 +19,14 @@ forged() {
         "${only:-}" "${small:-}" "$name.jsonl" "$source" --layer buildings --result "$name.o.gpkg" "$@")")
 }
 
-# small_worlds SEED...: runs of small_worlds.py.
+# small_worlds SEED...: runs of small_worlds.py; ease=KAPPA: with prices.
 small_worlds() {
     local seed
     local -a words
     for seed in "$@"; do
         mapfile -t words < <(python3 "$here/small_worlds.py" "$seed")
         layer "world$seed.gpkg" buildings POLYGON <"$seed.csv"
-        small=yes forged "world$seed" "world$seed.gpkg" "${words[@]}"
+        small=yes forged "world$seed" "world$seed.gpkg" "${words[@]}" ${ease:+--ease "$ease"}
     done
 }
 
@@ -56,6 +56,7 @@ forge_generated() {
     make_row
     make_bays
     make_shut
+    make_front
     forged through houses.gpkg --gap 1 --max-shift 1 --no-blocks --barrier through.gpkg
     forged free houses.gpkg --gap 2 --no-blocks
     forged side wall.gpkg --no-blocks --fixed-where 'w = 1 AND fid = 2' --barrier side.gpkg
@@ -76,8 +77,10 @@ forge_generated() {
     forged short short.gpkg --gap 1 --no-blocks --max-shift-field m
     forged row row.gpkg --gap 3 --rows auto --fixed-where 'w = 3' --weight-field w
     forged bays bays.gpkg --gap 5 --max-shift 1 --rows auto
+    forged front front.gpkg --gap 4 --max-shift 4.5 --rows auto --ease 30 --barrier drawn.gpkg,width=6
     forged squeezed squeezed.gpkg --gap 5 --max-shift 20 --fixed-where 'w = 3' --rows auto
     only='"within"' forged shut shut.gpkg --barrier shut_in.gpkg
     forged shares squares.gpkg --gap 3 --effort 0
     small_worlds 30 41 55 112 135 156 200 226 261 386 518 549 618 634 652 655 663 673 692 705 755 980 1047 1129 1136 1171 1228 1466 3063 3192 3231
+    ease=30 small_worlds 85 188 196 228
 }

@@ -44,7 +44,7 @@ class Run:
         self.judge = Judge(self.checker.problem, self.checker.result, self.lines)
         result, problem = self.checker.result, self.checker.problem
         self.cost = sum((Fraction(problem.weight(f)) * result.square(f) for f in result.moved()), Fraction(0))
-        self.cost += problem.rows.cost(result.moves.get) if problem.rows else 0
+        self.cost += (problem.rows.cost(result.moves.get) if problem.rows else 0) + problem.eased.cost(result.moves.get)
 
     def forgeries(self):
         """Yields (number of the line, path in it, name of the change)."""
@@ -223,7 +223,7 @@ def other_options(words):
     for extra in (["--gap", "0.75"], ["--gap", "2.5"], ["--max-shift", "0.25"], ["--max-shift", "1000"], ["--fixed-where", "fid = 1"],
                   ["--ignore-where", "fid = 1"], ["--no-blocks"], ["--allow-jumps"], ["--contained", "ignore"], ["--weight", "area"],
                   ["--touch-tolerance", "0.01"], ["--layer", "nowhere"], ["--rows", "auto"], ["--rows", "no"],
-                  ["--row-stiffness", "2,0.2"]):
+                  ["--row-stiffness", "2,0.2"], ["--ease", "no"], ["--ease", "7"]):
         yield words + extra  # if an option is given twice, the last one counts
     for k, word in enumerate(words):
         if word == "--barrier":
@@ -329,7 +329,7 @@ proof.forces.node proof.forces.way proof.forces.behind proof.forces.force proof.
 proof.side_b proof.side_c proof.still proof.row group bound bodies bodies.features bodies.features.fid bodies.features.weight
 bodies.features.max_shift bodies.features.anchor bodies.barrier bodies.weight bodies.shift pieces pieces.i pieces.j pieces.a pieces.b
 pieces.A pieces.B pieces.shadow pieces.clearance nodes nodes.parent nodes.cuts nodes.cuts.kind nodes.cuts.i nodes.cuts.j nodes.cuts.n
-nodes.cuts.d nodes.cuts.pieces row_stiffness row along apart pieces.row springs springs.i springs.j springs.n springs.stiff nodes.forces nodes.by nodes.empty nodes.empty.i nodes.empty.j nodes.empty.pieces prices prices.side
+nodes.cuts.d nodes.cuts.pieces nodes.cuts.share pieces.priced pieces.joined pieces.pieces eased ease row_stiffness row along apart pieces.row springs springs.i springs.j springs.n springs.stiff nodes.forces nodes.by nodes.empty nodes.empty.i nodes.empty.j nodes.empty.pieces prices prices.side
 prices.unit prices.x prices.y prices.columns prices.rows crowded""".split()
 
 

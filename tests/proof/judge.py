@@ -15,6 +15,7 @@ import math
 import random
 from fractions import Fraction
 
+from cover import hull
 from form import shown
 from judge_moves import cheapest, meeting
 from judge_places import Places, polygon_between
@@ -71,7 +72,7 @@ class Judge:
         if self.shares_springs_twice(trees, own):
             return "shares of a spring that are more than its stiffness"
         cost = sum(w * square(self.move(body)) for body, w in own.items())
-        cost += sum(self.cost_of_springs(TreeOf(t)) for t in trees)
+        cost += sum(self.cost_of_springs(TreeOf(t)) + self.cost_of_prices(TreeOf(t)) for t in trees)
         bound = sum(Fraction(t["bound"]) for t in trees)
         return f"a group of at least {shown(bound)}, which costs {shown(cost)}" if bound > cost else None
 
@@ -97,6 +98,10 @@ class Judge:
         moves = {k: self.move(body) for k, body in enumerate(tree.keys)}
         return sum(Fraction(stiff) * min(Fraction(0), sum(x * moves[k][0] + y * moves[k][1] for k, x, y in terms)) ** 2
                    for terms, stiff in tree.springs)
+
+    def cost_of_prices(self, tree):
+        """In the result."""
+        return sum(self.problem.eased.cost_of(pair, self.result.moves.get) for pair in map(tree.pair, tree.eased) if pair in self.problem.eased.members)
 
     def wrong_with_tree(self, line, before):
         for body in line["bodies"]:
@@ -124,7 +129,7 @@ class Judge:
             if w is not None:
                 x, y = self.move(body)
                 total += w * square((x - a[0], y - a[1]))
-        return total + self.cost_of_springs(tree)
+        return total + self.cost_of_springs(tree) + self.cost_of_prices(tree)
 
     def move(self, body):
         return tuple(map(Fraction, self.result.moves.get(body[0], (0, 0))))
@@ -133,7 +138,7 @@ class Judge:
 
     def wrong_with_nodes(self, tree, before):
         line = tree.line
-        shaken = line["bound"] > before["bound"] or any(line.get(key) != before.get(key) for key in ("bodies", "springs"))
+        shaken = line["bound"] > before["bound"] or any(line.get(key) != before.get(key) for key in ("bodies", "springs", "eased"))
         for k, piece in enumerate(line["pieces"]):
             if shaken or k >= len(before["pieces"]) or piece != before["pieces"][k]:
                 if self.contradicts_piece(tree, piece):
@@ -157,15 +162,40 @@ class Judge:
     def wrong_with_claim(self, tree, kind, told, premises):
         if kind == "hull" and self.finds_place(tree, told["i"], told["j"], premises, told):
             return "a hull takes away what is allowed"
-        if kind == "disc" and tree.finds_moves(premises, told):
+        if kind == "price" and self.finds_place(tree, told["i"], told["j"], premises, None, self.lacks_less(tree, told)):
+            return "a pair lacks less"
+        if kind == "disc" and self.finds_moves(tree, premises, told):
             return "a disc takes away what is cheap"
         if kind == "limit" and self.is_kept_by_limit(tree, told):
             return "a limit's cut takes away what the limit leaves"
         if kind == "empty" and self.finds_place(tree, told["i"], told["j"], premises, None):
             return "an empty node is not"
-        if kind == "leaf" and tree.finds_moves(premises, None):
+        if kind == "leaf" and self.finds_moves(tree, premises, None):
             return "there are cheaper moves"
         return None
+
+    def finds_moves(self, tree, cuts, beyond):
+        prices = []
+        for ends in tree.eased:
+            if tree.pair(ends) not in self.problem.eased.members:
+                return False
+            prices.append((self.problem.eased.price(tree.pair(ends)),
+                           [(*side_of(c), c["share"]) for c in cuts if c["kind"] == "price" and [c["i"], c["j"]] == ends]))
+        return tree.finds_moves([c for c in cuts if c["kind"] != "price"], beyond, prices)
+
+    def lacks_less(self, tree, cut):
+        """A test of relative places: does the pair lack less there than the cut says?"""
+        pairs = self.problem.eased.members.get(frozenset((tree.keys[cut["i"]], tree.keys[cut["j"]])), [])
+
+        def test(u):
+            slope = (Fraction(cut["d"]) - sum(Fraction(n) * Fraction(v) for n, v in zip(cut["n"], u))) / Fraction(cut["share"])
+            return all(self.places.lacks_less(*p, self.seen_from(tree, cut["i"], p[0], u), slope) for p in pairs)
+        return test
+
+    def seen_from(self, tree, i, a, u):
+        """The move of the second of two things, if a is the first, on the lattice."""
+        x, y = self.on_lattice(u)
+        return (x, y) if a in tree.keys[i] else (-x, -y)
 
     def is_kept_by_limit(self, tree, cut):
         limits = [f["max_shift"] for f in tree.line["bodies"][cut["i"]].get("features", ()) if f["max_shift"] is not None]
@@ -190,19 +220,24 @@ class Judge:
                 return True
         return False
 
-    def finds_place(self, tree, i, j, earlier, cut):
+    def finds_place(self, tree, i, j, earlier, cut, also=None):
         """A relative place that two bodies may have within the cuts on them, at a cost below the bound, and beyond
-        that one cut."""
-        own = [(*turned(c, i, j), c["d"]) for c in earlier if {c["i"], c.get("j")} == {i, j}]
+        that one cut; one that passes the test `also`."""
+        own = [(*turned(c, i, j), c["d"]) for c in earlier if c["kind"] not in ("price", "limit") and
+               ({c["i"], c["j"]} == {i, j} or (c["i"] == i and tree.weights[j] is None and tree.weights[c["j"]] is None))]
         beyond = [] if cut is None else [(-cut["n"][0], -cut["n"][1], -cut["d"])]
         centre, reach = tree.reach(i, j)
         corners = polygon_between(centre, min(reach, 10 ** 24) ** 0.5, own + beyond)
         for u in tried(corners):
             far = square([Fraction(v) - c for v, c in zip(u, map(Fraction, centre))])
-            if far < reach and all(keeps(c, u) for c in own) and (cut is None or not keeps((*cut["n"], cut["d"]), u)):
-                if self.places.bodies_may(tree.keys[i], tree.keys[j], self.on_lattice(u)):
+            if far < reach and self.is_within_limits(tree, i, j, u) and all(keeps(c, u) for c in own) and (cut is None or not keeps((*cut["n"], cut["d"]), u)):
+                if (not also or also(u)) and self.places.bodies_may(tree.keys[i], tree.keys[j], self.on_lattice(u)):
                     return True
         return False
+
+    def is_within_limits(self, tree, i, j, u):
+        limits = [0 if tree.weights[k] is None else self.places.limit(tree.keys[k]) for k in (i, j)]
+        return None in limits or square(list(map(Fraction, u))) <= sum(map(Fraction, limits)) ** 2
 
     def contradicts_piece(self, tree, piece):
         """A place that the piece forbids although its bodies may have it."""
@@ -211,6 +246,8 @@ class Judge:
             return True
         if piece.get("row"):
             return frozenset((tree.keys[i], tree.keys[j])) not in self.places.rows
+        if "priced" in piece or "joined" in piece:
+            return self.says_too_much(piece)
         drawn = random.Random(1)
         owed = float(Fraction(self.places.required(piece["a"], piece["b"])) / self.unit) if "clearance" not in piece else piece["clearance"]
         for k in range(2 * TRIES):
@@ -228,6 +265,16 @@ class Judge:
             if self.places.bodies_may(tree.keys[i], tree.keys[j], self.on_lattice(u)):
                 return True
         return owed < 0 and self.places.depth(piece["a"], piece["b"]) > Fraction(owed) ** 2 * self.unit ** 2
+
+    def says_too_much(self, piece):
+        """A place near the middle of a priced piece, at which the two lack less than its depth there."""
+        corners = piece.get("joined") or [[p[c] - q[c] for c in (0, 1)] for p in piece["A"] for q in piece["B"]]
+        corners = hull([tuple(map(Fraction, p)) for p in corners])
+        u = tuple(sum(p[c] for p in corners) / len(corners) for c in (0, 1))
+        deep = min((abs(float((q[0] - p[0]) * (u[1] - p[1]) - (q[1] - p[1]) * (u[0] - p[0]))) / (math.dist(p, q) or 1)
+                    for p, q in zip(corners, corners[1:] + corners[:1])), default=0)
+        says = Fraction(self.places.required(piece["a"], piece["b"])) / self.unit + Fraction(deep * 0.999)
+        return len(corners) > 2 and self.places.lacks_less(piece["a"], piece["b"], self.on_lattice(u), says)
 
     def on_lattice(self, u):
         return tuple(int(Fraction(v) * self.unit) for v in u)
@@ -301,18 +348,23 @@ class TreeOf:
         self.springs = [([(s["i"], *(-Fraction(v) for v in s["n"])), (s["j"], *map(Fraction, s["n"]))], Fraction(s["stiff"]))
                         for s in line.get("springs", ())]
 
+        self.eased = [list(pair) for pair in line.get("eased", ())]
+
+    def pair(self, ends):
+        return frozenset(self.keys[k] for k in ends)
+
     def reach(self, i, j):
         """The range of the relative move at a cost below the bound: a centre, and the square of a radius."""
         mass = sum((1 / self.weights[k] for k in (i, j) if self.weights[k] is not None), Fraction(0))
         return [float(b - a) for a, b in zip(self.shifts[i], self.shifts[j])], self.bound * mass
 
-    def finds_moves(self, cuts, beyond):
+    def finds_moves(self, cuts, beyond, prices=()):
         """Moves that satisfy the cuts, except for the last one, and cost less than the bound."""
         sides = [side_of(c) for c in cuts]
         if beyond is not None:
             terms, d = side_of(beyond)
             sides.append(([(k, -x, -y) for k, x, y in terms], -d))
-        return cheapest(self.weights, self.shifts, sides, self.bound, self.springs)
+        return cheapest(self.weights, self.shifts, sides, self.bound, self.springs, prices)
 
 
 class VerdictOf:
@@ -439,7 +491,7 @@ def square(v):
 
 
 def turned(cut, i, j):
-    return cut["n"] if (cut["i"], cut["j"]) == (i, j) else (-cut["n"][0], -cut["n"][1])
+    return cut["n"] if cut["i"] == i else (-cut["n"][0], -cut["n"][1])
 
 
 def keeps(side, u):

@@ -8,10 +8,11 @@ from fractions import Fraction
 SWEEPS, ROUNDS, HAIR = 40, 8, 1e-9
 
 
-def cheapest(weights, shifts, sides, bound, springs=()):
+def cheapest(weights, shifts, sides, bound, springs=(), prices=()):
     """Are there moves that satisfy all constraints and cost less than `bound`? The cost is the sum of w |t - a|^2, and of
-    stiff v^2 over springs (terms, stiff), where v is what the sum over the terms is less than 0. A body without a weight
-    is fixed."""
+    stiff v^2 over springs (terms, stiff), where v is what the sum over the terms is less than 0. Prices are ((linear, square),
+    constraints with a share): they cost linear s + square s^2, where share times s is enough for each of these. A body
+    without a weight is fixed."""
     every = [*sides, *((terms, 0) for terms, _ in springs)]
     floats = [([(k, float(x), float(y)) for k, x, y in terms if weights[k] is not None], float(d)) for terms, d in every]
     give = [0.0] * len(sides) + [0.5 / float(stiff) if stiff > 1e-300 else 1e300 for _, stiff in springs]
@@ -40,6 +41,10 @@ def cheapest(weights, shifts, sides, bound, springs=()):
     cost = sum(v * ((p[0] - s[0]) ** 2 + (p[1] - s[1]) ** 2) for v, p, s in zip(weights, exact, shifts) if v is not None)
     cost += sum(Fraction(stiff) * min(Fraction(0), sum(Fraction(x) * exact[b][0] + Fraction(y) * exact[b][1] for b, x, y in terms)) ** 2
                 for terms, stiff in springs)
+    for (linear, square), asked in prices:
+        s = max([(Fraction(d) - sum(Fraction(x) * exact[b][0] + Fraction(y) * exact[b][1] for b, x, y in terms)) / Fraction(share)
+                 for terms, d, share in asked], default=Fraction(0))
+        cost += max(Fraction(0), s) * (linear + square * max(Fraction(0), s))
     return cost < bound and keep_all(sides, dict(enumerate(exact)))
 
 

@@ -101,6 +101,15 @@ class Places:
         least = plane.least_square(p, q)
         return depth is not None and least is not None and least <= depth
 
+    def lacks_less(self, a, b, u, most):
+        """Do the two lack less than that, in units of the layer, if b is moved by u?"""
+        p, q = self.moved(a, b, u)
+        rest = Fraction(most) * self.unit - self.required(a, b)
+        if p.area and plane.interiors_meet(p, q):
+            depth = plane.least_square(p, q)
+            return rest > 0 and depth is not None and depth < rest * rest
+        return rest >= 0 or plane.distance_square(p, q) > rest * rest
+
     # ---- Paths
 
     def may_go(self, a, b, u):

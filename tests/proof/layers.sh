@@ -265,3 +265,10 @@ make_shut() {
     printf 'WKT,w\n"LINESTRING(%s)",1\n"LINESTRING(%s)",1\n"LINESTRING(%s)",1\n' '-6 -1,6 -1' '1 -1,-3 7' '-1 -5,4 10,-2 -2' |
         layer shut_in.gpkg shut_in LINESTRING
 }
+
+# Three houses of a row beside a drawn road; the one in the middle stands on it, and lacks half a metre of what the limit allows.
+make_front() {
+    printf 'WKT,w\n"LINESTRING(-30 0,110 0)",1\n' | layer drawn.gpkg road LINESTRING
+    printf 'WKT,w\n"POLYGON((0 8,20 8,20 28,0 28))",1\n"POLYGON((25 2,45 2,45 22,25 22))",1\n"POLYGON((50 8,70 8,70 28,50 28))",1\n' |
+        layer front.gpkg buildings POLYGON
+}

@@ -6,6 +6,8 @@ cut cone
 cut disc
 cut hull
 cut limit
+cut price
+eased
 leaf jump within
 leaf jump within behind
 leaf max_shift
@@ -34,6 +36,9 @@ piece area barrier area in touch
 piece area barrier area overlapping
 piece area barrier segment
 piece area barrier segment apart
+piece joined
+piece priced area area
+piece priced area barrier segment
 piece area barrier segment in touch
 piece area barrier segment overlapping
 piece row
@@ -131,11 +136,11 @@ def statements_of(line):
         for node in line.get("proof", ()):
             yield of_node(line, node)
     if "pieces" in line:
-        yield from (words("piece", *marks(p, "row", "shadow"), *of_pair(p)) for p in line["pieces"])
+        yield from (words("piece", *marks(p, "row", "shadow", "priced", "joined"), *of_pair(p)) for p in line["pieces"])
         bodies = line["bodies"]
         yield words("tree", "two bodies" if len(bodies) < 3 else "more bodies", "one fixed" if any(b["weight"] is None for b in bodies) else "")
         yield words("tree", "a body of", str(min(3, max(len(b.get("features", "1")) for b in bodies))))
-        yield from (["springs"] if "springs" in line else [])
+        yield from marks(line, "springs", "eased")
         yield from (words("cut", c["kind"]) for node in line["nodes"] for c in node["cuts"])
         yield from (words("node", *marks(node, "by", "empty")) for node in line["nodes"])
     if "prices" in line:
@@ -151,7 +156,7 @@ def of_node(line, node):
 
 def of_pair(told):
     """Piece or question: the shapes of the two parts, and the clearance. Those of a row have none."""
-    if "row" in told:
+    if "row" in told or "joined" in told:
         return ()
     shapes = [("barrier " if isinstance(told[key], str) else "") + ("point", "segment", "area")[min(len(told[part]), 3) - 1]
               for key, part in ("aA", "bB")]

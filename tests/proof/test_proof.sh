@@ -319,7 +319,7 @@ abroad=(--gap 2 --max-shift 4 --no-blocks --barrier)
 proved abroad abroad.gpkg "${abroad[@]}" far.gpkg,width=3
 grep -q '"street:1"' abroad.jsonl || fail "no line of a proof names the street"
 ogr2ogr back.gpkg far.gpkg -t_srs EPSG:25832 2>/dev/null || fail "ogr2ogr: far.gpkg"
-python3 "$here/check_proof.py" abroad.jsonl abroad.gpkg --layer buildings "${abroad[@]}" back.gpkg,width=3 >said || fail "brought back: $(cat said)"
+python3 "$here/check_proof.py" abroad.jsonl abroad.gpkg --layer buildings "${abroad[@]}" back.gpkg,width=3 --rows no --ease no >said || fail "brought back: $(cat said)"
 strange abroad abroad.gpkg "${abroad[@]}" near.gpkg,width=3
 PATH=$here not_asked 'ogr2ogr, which does not run' abroad abroad.gpkg "${abroad[@]}" far.gpkg,width=3
 
@@ -358,7 +358,7 @@ make_arcs
 arcs=(--gap 1 --max-shift 3 --no-blocks --weight area)
 proved arcs arcs.gpkg "${arcs[@]}" --barrier bow_street.gpkg,width=1
 grep -q '"street:1"' arcs.jsonl || fail "no line of a proof names the street with the arc"
-python3 "$here/check_proof.py" arcs.jsonl arcs.gpkg --layer buildings "${arcs[@]}" --barrier chords.gpkg,width=1 >said || fail "chords: $(cat said)"
+python3 "$here/check_proof.py" arcs.jsonl arcs.gpkg --layer buildings "${arcs[@]}" --barrier chords.gpkg,width=1 --rows no --ease no >said || fail "chords: $(cat said)"
 ogr2ogr drawn.gpkg arcs.gpkg -nlt CONVERT_TO_LINEAR 2>/dev/null || fail "ogr2ogr: arcs.gpkg"
 strange arcs drawn.gpkg "${arcs[@]}" --barrier chords.gpkg,width=1
 ogr2ogr abroad_bow.gpkg bow_street.gpkg -t_srs EPSG:4326 2>/dev/null || fail "ogr2ogr: bow_street.gpkg"
