@@ -267,14 +267,15 @@ static inline double sunder_i_search_full_gap(const sunder_i_search *search)
 {
     return search->fully ? search->gap + (search->model->rules.full_gap - search->model->rules.gap) : search->gap;
 }
-/* By how much the full distance of two things exceeds the one that they have to keep; 0 unless search->fully. */
-double sunder_i_search_slack(const sunder_i_search *search, const sunder_i_piece_pair *pair);
-/* What the pieces of two bodies lack of their full distance at relative position u; at least 0. */
-double sunder_i_search_missing(sunder_i_search *search, uint32_t i, uint32_t j, const double u[2]);
-/* What body j, with the move u relative to body i, lacks of the rule of rows with the full gap; negative: it lacks
- * nothing. along: the direction in which it lacks it. */
-double sunder_i_search_missing_along(const sunder_i_search *search, uint32_t i, uint32_t j, const double u[2],
-                                     const double **along);
+
+/* ---- missing.c: what a pair lacks -------------------------------------------------------------------------------- */
+
+/* Sets `missing` of the pair (i, j) to what j, with the move u relative to i, lacks of its full distance, or of the
+ * rule of rows with the full gap; negative: it stands farther. Then n.u >= d says that it lacks nothing. `missing` is
+ * -reach, and n and d are not set, if the two stand farther than that. */
+void sunder_i_search_measure_pair(sunder_i_search *search, const double u[2], double reach, sunder_i_short_pair *pair);
+/* Sets the other members of a shortfall, whose pair is given, for the moves t, unless it was measured at these. */
+void sunder_i_search_measure_shortfall(sunder_i_search *search, sunder_i_shortfall *shortfall, const double *t);
 
 /* ---- shadows.c: which bodies may not pass which ------------------------------------------------------------------ */
 

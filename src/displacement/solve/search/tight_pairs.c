@@ -1,11 +1,8 @@
 /* Pairs that keep the distance that they have to keep, but may lack some of their full distance, at a price
- * (../../layer/full_gap.c). Two pieces lack the full distance minus their distance, and two bodies, or a body and a
- * barrier, the most that two of their pieces lack. Neighbours in a row lack at least what they lack of the rule of rows
- * with the full gap. A program has one priced constraint for each pair, along the shortest link, for pairs that lack
- * nothing so far, too. Pairs that are left in conflict are in shortfall.c. */
+ * (../../layer/full_gap.c, missing.c). A program has one priced constraint for each pair, along the shortest link, for
+ * pairs that lack nothing so far, too. Pairs that are left in conflict are in shortfall.c. */
 #include "displacement/solve/search/search_stages.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 #define TIGHT_KEY (UINT64_C(31) << 58)
@@ -19,66 +16,7 @@ bool sunder_i_search_is_tight_key(uint64_t key, uint32_t *i, uint32_t *j)
     return key >> 58 == TIGHT_KEY >> 58;
 }
 
-double sunder_i_search_slack(const sunder_i_search *search, const sunder_i_piece_pair *pair)
-{
-    if (!search->fully) return 0;
-    const sunder_i_model *model = search->model;
-    const uint32_t f = pair->a->feature, g = pair->b->feature;
-    return sunder_i_full_above(model, f, g) - sunder_i_owed_above(model, f, g);
-}
-
-double sunder_i_search_missing_along(const sunder_i_search *search, uint32_t i, uint32_t j, const double u[2],
-                                     const double **along)
-{
-    const sunder_i_body *p = &search->model->body[search->body[i]];
-    const sunder_i_row_side *side =
-        p->has->row_sides ? sunder_i_row_side_of(search->model, p, search->body[j]) : NULL;
-    if (!side || side->full == -INFINITY) return -INFINITY;
-    *along = side->along;
-    return side->full + (search->gap - search->model->rules.gap) - (u[0] * side->along[0] + u[1] * side->along[1]);
-}
-
-/* ---- Which pairs, and what they lack ----------------------------------------------------------------------------- */
-
-typedef struct facing {
-    const double *u;
-    sunder_i_short_pair *out;
-} facing;
-
-static void take_pieces(sunder_i_search *s, const sunder_i_piece_pair *pair, void *context)
-{
-    const facing *f = context;
-    double gap;
-    size_t n;
-    if (pair->shadow || pair->inclusion != SUNDER_I_LAPSED) return;
-    const sunder_i_obstacle_edge *edge = sunder_i_search_edges(s, pair, &n, &gap);
-    if (!edge) return;
-    const sunder_i_support h = sunder_i_search_support(pair, edge, n, f->u);
-    const double full = gap + sunder_i_search_slack(s, pair);
-    if (!(full - h.distance > f->out->missing)) return;
-    f->out->missing = full - h.distance;
-    f->out->n[0] = h.n[0];
-    f->out->n[1] = h.n[1];
-    f->out->d = h.support + full;
-}
-
-static void take_row(const sunder_i_search *s, const double u[2], sunder_i_short_pair *out)
-{
-    const double *along = NULL, missing = sunder_i_search_missing_along(s, out->i, out->j, u, &along);
-    if (!(missing > out->missing)) return;
-    out->missing = missing;
-    out->n[0] = along[0];
-    out->n[1] = along[1];
-    out->d = missing + along[0] * u[0] + along[1] * u[1];
-}
-
-double sunder_i_search_missing(sunder_i_search *search, uint32_t i, uint32_t j, const double u[2])
-{
-    sunder_i_short_pair found = {.i = i, .j = j, .missing = 0};
-    facing f = {u, &found};
-    sunder_i_search_piece_pairs(search, i, j, u, sunder_i_search_full_gap(search), false, take_pieces, &f);
-    return found.missing;
-}
+/* ---- Which pairs ------------------------------------------------------------------------------------------------- */
 
 typedef struct looking {
     const double *t;
@@ -97,10 +35,8 @@ static void take_bodies(sunder_i_search *s, uint32_t i, uint32_t j, void *contex
     }
     const uint32_t whole = sunder_i_whole_of(s->model, s->model->member[s->model->body[s->body[j]].member]);
     const double u[2] = {l->t[2 * j] - l->t[2 * i], l->t[2 * j + 1] - l->t[2 * i + 1]};
-    sunder_i_short_pair found = {.i = i, .j = j, .whole = whole, .missing = -l->reach};
-    facing f = {u, &found};
-    sunder_i_search_piece_pairs(s, i, j, u, l->reach + sunder_i_search_full_gap(s), false, take_pieces, &f);
-    take_row(s, u, &found);
+    sunder_i_short_pair found = {.i = i, .j = j, .whole = whole};
+    sunder_i_search_measure_pair(s, u, l->reach, &found);
     if (s->failed || !(found.missing > -l->reach)) return;
     if (sunder_i_reserve(&s->tight, &s->tight_capacity, s->tights + 1, sizeof *s->tight))
         s->tight[s->tights++] = found;
