@@ -43,9 +43,10 @@ void corpus_write(FILE *to, const corpus_item *item)
 {
     const sunder_layer_options *o = &item->options;
     fprintf(to, "cluster %s\n", item->name);
-    fprintf(to, "options %a %a %d %d %a %d %d %d %a %llu %a\n", o->gap, o->touch_tolerance, o->no_blocks, o->no_touch,
-            o->thin, o->list_inside, (int)o->contained, o->allow_jumps, o->effort, (unsigned long long)o->seed,
-            o->barrier_reach);
+    fprintf(to, "options %a %a %d %d %a %d %d %d %a %llu %a %d %a %a %a\n", o->gap, o->touch_tolerance, o->no_blocks,
+            o->no_touch, o->thin, o->list_inside, (int)o->contained, o->allow_jumps, o->effort,
+            (unsigned long long)o->seed, o->barrier_reach, (int)o->rows, o->row_stiffness[0], o->row_stiffness[1],
+            o->ease);
     for (size_t k = 0; k < item->features; k++) {
         const sunder_feature *f = &item->feature[k];
         const double *at = item->side_anchor + 2 * k;
@@ -148,6 +149,10 @@ static void read_options(FILE *from, sunder_layer_options *o)
     o->effort = read_number(from);
     o->seed = read_count(from);
     o->barrier_reach = read_number(from);
+    o->rows = (sunder_rows)read_count(from);
+    o->row_stiffness[0] = read_number(from);
+    o->row_stiffness[1] = read_number(from);
+    o->ease = read_number(from);
 }
 
 static void read_feature(FILE *from, corpus_item *item)

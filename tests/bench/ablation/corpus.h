@@ -3,6 +3,7 @@
  *
  *     cluster NAME
  *     options GAP TOLERANCE NO_BLOCKS NO_TOUCH THIN LIST_INSIDE CONTAINED JUMPS EFFORT SEED BARRIER_REACH
+ *             ROWS STIFFNESS STIFFNESS_ALONG EASE
  *     feature WEIGHT MAX_SHIFT BLOCK FIXED IGNORED SIDE_ANCHOR_X SIDE_ANCHOR_Y, and a shape
  *     barrier WIDTH GAP SIDE, and a shape; lines N, and N numbers of points; the points
  *     end
