@@ -3,7 +3,8 @@
  * It is if all its corners are in one piece, since pieces are convex. Otherwise it is cut in two, and each half is
  * tested. The cut goes through the piece that contains the region's middle and most of its corners, just inside the
  * piece's boundary at the corner that is farthest outside, so that pieces which overlap in a strip need to meet only
- * there. If that line hardly cuts the region, the cut is across its longest extent. If the middle of a part is in no
+ * there. If that line hardly cuts the region, the cut is across its longest extent. So is every second one of many
+ * cuts: lines at the boundary of a piece with an arc may cut off ever thinner slivers. If the middle of a part is in no
  * piece the answer is no.
  *
  * Where a slope S is given, a priced piece contains a corner v if v lacks more than S(v): its distance from K, which is
@@ -186,7 +187,8 @@ static bool is_covered(covering *c, const sunder_i_region *r, int depth)
     if (c->gap && (!most || depth == COVER_DEPTH)) memcpy(c->gap, middle, sizeof middle);
     if ((!most && (!c->left || depth >= LEFT_DEPTH)) || depth == COVER_DEPTH || c->steps > c->most)
         return leave_over(c, r);
-    if (!most || !find_leaving(c, most, r, middle, along, &d)) {
+    const bool across = depth >= ACROSS_FROM && depth % 2;
+    if (!most || across || !find_leaving(c, most, r, middle, along, &d)) {
         measure_region(r, middle, along);
         d = along[0] * middle[0] + along[1] * middle[1];
     }

@@ -5,7 +5,7 @@
 
 /* SUNDER_I_OPTIMUM_TUNING_VERSION is the version of the values below. It is raised with each change of a value, so that
  * a record can name the values by their version (tests/house/TUNING). */
-#define SUNDER_I_OPTIMUM_TUNING_VERSION 5
+#define SUNDER_I_OPTIMUM_TUNING_VERSION 6
 
 /* ---- Contacts (body_contact.c) ----------------------------------------------------------------------------------- */
 
@@ -221,6 +221,8 @@
 /* A region that lies partly in a piece is divided along a line inside that piece, at the share LEAVING_ROOM of the way
  * from the piece's edge to the middle of the region. */
 #define LEAVING_ROOM 0x1p-10
+/* After ACROSS_FROM cuts every second one is across the region's longest extent. */
+#define ACROSS_FROM 12
 /* A region is divided at most COVER_DEPTH times, with at most COVER_STEPS steps. The limit matters, since a proof that
  * is not found is sought again and again, and its branch never closes. */
 #define COVER_DEPTH 60

@@ -298,6 +298,39 @@ static void test_cover_by_a_strip(void **state)
         }
 }
 
+/* Round pieces at random, and a region each place of which is deep in one of them: that is proved, although the
+ * boundary of a piece with arcs is followed by many lines. */
+static void test_cover_by_round_pieces(void **state)
+{
+    (void)state;
+    enum { SETS = 400, GRID = 24 };
+    size_t deep = 0;
+    for (size_t i = 0; i < SETS; i++) {
+        static set s;
+        rng r = rng_start(test_seed(), 3000 + i);
+        memset(&s, 0, sizeof s);
+        s.forbidden = (sunder_i_forbidden){.piece = s.piece, .edge = s.edge};
+        for (int k = 0; k < 60; k++) {
+            const double x = (double)rng_int(&r, -160, 128) / 16, y = (double)rng_int(&r, -160, 128) / 16;
+            add(&s, (double[4]){x, y, x + (double)rng_int(&r, 1, 32) / 16, y + (double)rng_int(&r, 1, 32) / 16}, 2.5);
+        }
+        assert_true(sunder_i_forbidden_index(&s.forbidden));
+        const double home[2] = {0, 0}, half = (double)rng_int(&r, 4, 10), step = 2 * half / GRID;
+        double least = INFINITY, gap[2];
+        for (int k = 0; k < (GRID + 1) * (GRID + 1); k++)
+            least = fmin(least, depth_of(&s, step * (k % (GRID + 1)) - half, step * (k / (GRID + 1)) - half));
+        uint64_t steps = 0;
+        sunder_i_region region;
+        sunder_i_region_init(&region, home, half);
+        if (least > step) {
+            deep++;
+            assert_true(sunder_i_region_is_covered(&region, &s.forbidden, NULL, gap, &steps));
+        }
+        sunder_i_free(s.forbidden.tree.box);
+    }
+    assert_in_range(deep, SETS / 8, SETS);
+}
+
 /* Pieces that are added after the tree was built are found, too. */
 static void test_behind_the_tree(void **state)
 {
@@ -364,6 +397,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_few_and_many),           cmocka_unit_test(test_down_into_a_notch),
         cmocka_unit_test(test_across_narrow_overlaps), cmocka_unit_test(test_cover_by_a_strip),
+        cmocka_unit_test(test_cover_by_round_pieces),
         cmocka_unit_test(test_behind_the_tree),        cmocka_unit_test(test_cover_what_can_be)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
