@@ -7,7 +7,7 @@ Roads have a least gap of their own in some layers. Which pairs are listed as co
 
 Asked of each front: its cost is the least; the conflicts are among those of a run with the least gap as the gap; a pair
 is tight if and only if it stands between the two gaps, and lacks what its moves say. Of each layer: the printed sums,
-the bound, and that `check` lists the same. A larger price never leaves a larger sum of squares."""
+that the bound holds and is within a tenth of the cost, and that `check` lists the same. A larger price never leaves a larger sum of squares."""
 import json
 import random
 import sqlite3
@@ -129,6 +129,8 @@ def check_layer(program, seed):
         printed = (short["pairs"], short["sum"], d["cost_shortfall"], short["tight"], d["cost"])
         if any(abs(a - b) > 1e-7 * abs(b) + 1e-9 for a, b in zip(printed, sums)):
             trouble.append("price %g: printed %s, summed %s" % (kappa, printed, sums))
+        if d["cost"] - d["lower_bound"] > 0.1 * (d["cost"] - d["cost_alone"]):
+            trouble.append("price %g: cost %.9g, bound %.9g" % (kappa, d["cost"], d["lower_bound"]))
         if not d["cost_alone"] <= d["lower_bound"] <= sum(least_costs) * (1 + 1e-9) + 1e-6:
             trouble.append("price %g: bound %.9g, least %.9g" % (kappa, d["lower_bound"], sum(least_costs)))
         if run.reasons - {(True, True), (False, False)}:

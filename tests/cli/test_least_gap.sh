@@ -28,7 +28,8 @@ styled() { ogr2ogr -q -f CSV /vsistdout/ o.gpkg layer_styles | grep -c "kind&quo
 [ "$(styled)" -gt 0 ] || fail "no style of tight pairs"
 between "$(cat s.json)" '$s | (.conflicts.before + .conflicts.after | add) == 0 and .blocked == 0 and .verified and
     .shortfall.pairs == 11 and .shortfall.tight == 11 and (.shortfall.sum - 19 | fabs) < 1e-6 and .rows.kink_mean == 0 and
-    (.displacement | (.cost - .cost_moves - .cost_rows - .cost_shortfall | fabs) < 1e-6 and .lower_bound <= .cost)' shared
+    (.displacement | (.cost - .cost_moves - .cost_rows - .cost_shortfall | fabs) < 1e-6 and .lower_bound <= .cost and
+        .lower_bound > .cost * (1 - 1e-6)) and .clusters_optimal == 1' "shared, and proved"
 read -r most least < <(gaps)
 awk -v most="$most" -v least="$least" 'BEGIN { exit !(least > 1 && most <= 1.3 * least) }' ||
     fail "the largest gap is $most, the least $least"

@@ -32,8 +32,9 @@ typedef struct easing {
 /* The bodies and prices of one group, or of one body, and what was proved of it. */
 typedef struct eased_group {
     sunder_i_list body;
+    sunder_i_lacking *pair; /* [prices] those that have a price, sorted; a barrier has the body of its first part */
     sunder_i_task_price *price;
-    size_t prices, capacity, movers;
+    size_t prices, pair_capacity, movers;
     double pays, cost; /* the prices at the present place; with the cost of moves and springs */
     sunder_i_joined *joined;
     size_t joins, joined_capacity;
@@ -45,7 +46,7 @@ typedef struct eased_group {
 static void free_eased(eased_group *e)
 {
     sunder_i_bound_trees_free(&e->trees);
-    sunder_i_free_all(e->body.item, e->price, e->joined, e->guests.item);
+    sunder_i_free_all(e->body.item, e->pair, e->price, e->joined, e->guests.item);
 }
 
 /* ---- What a tree is about ---------------------------------------------------------------------------------------- */
@@ -72,17 +73,50 @@ static bool is_of_group(const sunder_i_model *model, const sunder_i_group *g, co
     return sunder_i_set_has(g->body, g->n, l->i) && (model->body[l->j].fixed || sunder_i_set_has(g->body, g->n, l->j));
 }
 
-static bool gather_bodies(const sunder_report *report, const sunder_i_model *model, const sunder_i_group *g,
-                          eased_group *e)
+static bool add_pair(eased_group *e, const sunder_i_lacking *pair)
+{
+    if (!sunder_i_reserve(&e->pair, &e->pair_capacity, e->prices + 1, sizeof *e->pair)) return false;
+    e->pair[e->prices++] = *pair;
+    return true;
+}
+
+/* Adds two bodies if they are, or were at home, no farther from each other than the full distance. */
+static bool add_near_pair(const sunder_i_model *full, eased_group *e, uint32_t p, uint32_t q)
+{
+    const sunder_i_body *other = &full->body[q];
+    const double none[2] = {0, 0};
+    bool near, before;
+    if (full->body[p].fixed && other->fixed) return true;
+    if (full->body[p].fixed) return add_near_pair(full, e, q, p);
+    if (!sunder_i_are_in_contact(full, p, q, full->move + 2 * (size_t)p, full->move + 2 * (size_t)q, &near) ||
+        !sunder_i_are_in_contact(full, p, q, none, none, &before))
+        return false;
+    if (!near && !before) return true;
+    if (sunder_i_is_barrier_body(full, other)) q = full->body_of[sunder_i_whole_of(full, full->member[other->member])];
+    return add_pair(e, &(sunder_i_lacking){.i = p, .j = q});
+}
+
+/* Sets the pairs of the group that have a price: those that lack something, and with a least gap all that are near. */
+static bool gather_pairs(const sunder_report *report, const sunder_i_model *model, const sunder_i_group *g,
+                         eased_group *e)
+{
+    sunder_i_barriers barriers;
+    const sunder_i_model full = sunder_i_with_full_gap(model, &barriers);
+    bool ok = true;
+    for (size_t k = 0; k < report->eased && ok; k++)
+        if (is_of_group(model, g, &report->lacking[k])) ok = add_pair(e, &report->lacking[k]);
+    for (size_t k = 0; k < g->n && e->movers <= MOST_EASED && sunder_i_has_slack(model); k++)
+        for (size_t m = k + 1; m < g->n && ok; m++) ok = add_near_pair(&full, e, g->body[k], g->body[m]);
+    if (ok && e->prices) e->prices = sunder_i_merge_lacking(e->pair, e->prices);
+    return ok;
+}
+
+static bool gather_bodies(const sunder_i_model *model, const sunder_i_group *g, eased_group *e)
 {
     bool ok = true;
-    for (size_t k = 0; k < g->n && ok; k++) {
-        e->movers += !model->body[g->body[k]].fixed;
-        ok = sunder_i_list_push(&e->body, g->body[k]);
-    }
-    for (size_t k = 0; k < report->eased && ok; k++) {
-        const sunder_i_lacking *l = &report->lacking[k];
-        if (!is_of_group(model, g, l)) continue;
+    for (size_t k = 0; k < g->n && ok; k++) ok = sunder_i_list_push(&e->body, g->body[k]);
+    for (size_t k = 0; k < e->prices && ok; k++) {
+        const sunder_i_lacking *l = &e->pair[k];
         ok = sunder_i_is_barrier_body(model, &model->body[l->j]) ? add_parts(model, e, l->i, l->j)
                                                                  : sunder_i_list_push(&e->body, l->j);
     }
@@ -95,27 +129,31 @@ static uint32_t place_of(const eased_group *e, uint32_t body)
     return (uint32_t)sunder_i_lower_bound(&body, e->body.item, e->body.n, sizeof body, sunder_i_by_number);
 }
 
-/* Adds the prices of the group's pairs, and the most that these may lack, on the safe side of rounding. With a least
+/* Sets the prices of the group's pairs, and the most that these may lack, on the safe side of rounding. With a least
  * gap a pair may lack more than at the start. */
-static bool gather_prices(const sunder_report *report, const sunder_i_model *model, const sunder_i_group *g,
-                          eased_group *e)
+static bool gather_prices(const sunder_i_model *model, eased_group *e)
 {
-    for (size_t k = 0; k < report->eased; k++) {
-        const sunder_i_lacking *l = &report->lacking[k];
-        if (!is_of_group(model, g, l)) continue;
-        if (!sunder_i_reserve(&e->price, &e->capacity, e->prices + 1, sizeof *e->price)) return false;
+    e->price = sunder_i_alloc(e->prices, sizeof *e->price);
+    for (size_t k = 0; k < e->prices && e->price; k++) {
+        const sunder_i_lacking *l = &e->pair[k];
         const sunder_i_body *p = &model->body[l->i], *q = &model->body[l->j];
         const sunder_i_price price = sunder_i_price_of(model, p, q);
         const double owed = sunder_i_owed_above(model, model->member[p->member], model->member[q->member]);
         const uint32_t i = place_of(e, l->i), j = place_of(e, l->j);
         e->pays += sunder_i_price_at(&price, l->missing);
-        e->price[e->prices++] =
+        e->price[k] =
             (sunder_i_task_price){i < j ? i : j,
                                   i < j ? j : i,
                                   {price.linear * (1 - PRICE_ROOM), price.square * (1 - PRICE_ROOM)},
                                   sunder_i_has_slack(model) ? INFINITY : l->home + MOST_ROOM * (l->home + owed)};
     }
-    return true;
+    return e->price;
+}
+
+static bool gather(const sunder_report *report, const sunder_i_model *model, const sunder_i_group *g, eased_group *e)
+{
+    for (size_t k = 0; k < g->n; k++) e->movers += !model->body[g->body[k]].fixed;
+    return gather_pairs(report, model, g, e) && (!e->prices || (gather_bodies(model, g, e) && gather_prices(model, e)));
 }
 
 /* ---- Proofs ------------------------------------------------------------------------------------------------------ */
@@ -214,7 +252,7 @@ static bool prove_body(const easing *x, uint32_t body, eased_group *all)
     sunder_i_group alone = {.body = &body, .n = 1, .number = body};
     const double *t = model->move + 2 * (size_t)body;
     eased_group e = {0};
-    bool ok = gather_bodies(x->report, model, &alone, &e) && gather_prices(x->report, model, &alone, &e);
+    bool ok = gather(x->report, model, &alone, &e);
     e.cost = model->body[body].weight * (t[0] * t[0] + t[1] * t[1]) + e.pays;
     if (ok && e.prices) ok = prove_eased(x, NULL, &e, BODY_STEPS);
     if (ok && e.bound > 0) {
@@ -248,7 +286,7 @@ static sunder_status prove_group(const easing *x, sunder_i_group *g, sunder_i_gr
     eased_group e = {.cost = g->cost}, each = {0};
     sunder_i_reading reading;
     sunder_i_reads_begin(&reading, model, g->number);
-    bool ok = gather_bodies(x->report, model, g, &e) && gather_prices(x->report, model, g, &e);
+    bool ok = gather(x->report, model, g, &e);
     const double steps = EASED_STEPS * sunder_i_max(FEWEST_EASED, (double)e.movers) * model->rules.effort;
     if (ok && e.prices && e.movers <= MOST_EASED && steps > 0) ok = prove_eased(x, g, &e, steps);
     if (ok) raise_bound(g, former, &e);

@@ -52,7 +52,7 @@ static sunder_status measure_conflict(const sunder_i_model *model, const sunder_
                                       sunder_error *err)
 {
     const uint32_t i = model->body_of[c->a], j = model->body_of[c->b];
-    const bool swap = !sunder_i_may_move(&model->body[i]);
+    const bool swap = !sunder_i_may_move(&model->body[i]) || (sunder_i_may_move(&model->body[j]) && j < i);
     const double slack = sunder_i_full_above(model, (uint32_t)c->a, (uint32_t)c->b) - c->required;
     *out = (sunder_i_lacking){swap ? j : i, swap ? i : j, c->missing + slack, 0, 0};
     return missing_at_home(model, c, &out->home, err);
@@ -77,10 +77,10 @@ static bool is_priced(const sunder_i_model *model, const sunder_conflict *c)
                                   sunder_i_may_move(&model->body[model->body_of[c->b]]));
 }
 
-/* Merges the conflicts of each pair, sorted by pairs, into one. Returns the number of pairs. */
-static size_t merge_conflicts(sunder_i_lacking *list, size_t n)
+size_t sunder_i_merge_lacking(sunder_i_lacking *list, size_t n)
 {
     size_t out = 0;
+    qsort(list, n, sizeof *list, by_bodies);
     for (size_t k = 0; k < n; k++) {
         if (k == 0 || by_bodies(&list[out - 1], &list[k])) list[out++] = list[k];
         list[out - 1].missing = sunder_i_max(list[out - 1].missing, list[k].missing);
@@ -140,9 +140,8 @@ sunder_status sunder_i_report_eased(sunder_report *report, const sunder_i_model 
         if (is_priced(model, c)) status = measure_conflict(model, c, &list[n++], err);
     }
     if (!status) add_rows(model, list, &n);
-    if (!status && n) qsort(list, n, sizeof *list, by_bodies);
     report->lacking = list;
-    report->eased = status ? 0 : merge_conflicts(list, n);
+    report->eased = status || !n ? 0 : sunder_i_merge_lacking(list, n);
     if (!status) add_pairs(report, model);
     if (!status) add_up(report, model->bodies);
     return status;

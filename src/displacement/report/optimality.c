@@ -84,9 +84,9 @@ static sunder_status count_groups(sunder_report *report, sunder_i_solver *s, sun
 {
     uint32_t *owner = sunder_i_alloc(s->model.bodies, sizeof *owner);
     bool *listed = sunder_i_calloc(s->model.bodies, sizeof *listed);
-    const bool ok = owner && listed;
+    const bool ok = owner && listed, priced = report->paying && (report->eased || sunder_i_has_slack(&s->model));
     sunder_status status = ok ? SUNDER_OK : sunder_i_failure_cause(err);
-    if (ok && report->eased) status = sunder_i_solver_list_waivers(s, err);
+    if (ok && priced) status = sunder_i_solver_list_waivers(s, err);
     for (size_t b = 0; b < s->model.bodies && ok; b++) owner[b] = SUNDER_I_NOBODY;
     for (size_t k = 0; k < s->groups.n && ok; k++)
         if (!claim_bodies(&s->model, &s->groups.group[k], owner)) s->groups.group[k].bound = 0;
@@ -97,7 +97,7 @@ static sunder_status count_groups(sunder_report *report, sunder_i_solver *s, sun
         g->cost = cost_of(&s->model, g, report->paying);
         if (report->paying) add_prices(g, report->paying);
     }
-    if (!status && report->eased) status = sunder_i_report_eased_groups(report, s, err);
+    if (!status && priced) status = sunder_i_report_eased_groups(report, s, err);
     for (size_t k = 0; k < s->groups.n && !status; k++)
         report->summary.clusters_optimal += s->model.rules.effort > 0 && sunder_i_group_is_optimal(&s->groups.group[k]);
     return status;

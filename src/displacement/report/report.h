@@ -126,6 +126,8 @@ sunder_status sunder_i_report_add_tight(sunder_report *report, const sunder_i_mo
 
 /* If pairs are eased: computes what the conflicts lack, the prices of that, and the least prices. */
 sunder_status sunder_i_report_eased(sunder_report *report, const sunder_i_model *model, sunder_error *err);
+/* Sorts n pairs by bodies, and merges those of two bodies. Returns the number of pairs that remain. */
+size_t sunder_i_merge_lacking(sunder_i_lacking *list, size_t n);
 
 /* ---- eased_groups.c ---------------------------------------------------------------------------------------------- */
 

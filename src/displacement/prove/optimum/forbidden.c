@@ -408,15 +408,17 @@ static bool is_any_waived(const listing *l)
     return false;
 }
 
-/* Adds the half-plane that the rule of rows forbids to neighbours in a row, as far as it is within reach. It is exact
- * but for the rounding of its corners. Returns false if memory is out. */
+/* Adds the half-plane that the rule of rows forbids to neighbours in a row, or with a least gap the one where they lack
+ * some of it (l->priced), as far as it is within reach. It is exact but for the rounding of its corners. Returns false
+ * if memory is out. */
 static bool add_row(listing *l)
 {
     sunder_i_forbidden *f = l->out;
     const sunder_i_row_side *side =
         l->p->has->row_sides ? sunder_i_row_side_of(l->model, l->p, (uint32_t)(l->q - l->model->body)) : NULL;
-    if (!side || side->least == -INFINITY) return true;
-    const double least = is_any_waived(l) ? side->least_listed : side->least;
+    if (!side || side->least == -INFINITY || (l->priced && !sunder_i_has_slack(l->model))) return true;
+    const double least = l->priced ? side->full : is_any_waived(l) ? side->least_listed : side->least;
+    if (least == -INFINITY) return true;
     const sunder_i_obstacle_edge edge = {
         {least * side->along[0], least * side->along[1]}, {side->along[0], side->along[1]}, INFINITY};
     double corner[8];
@@ -426,6 +428,7 @@ static bool add_row(listing *l)
                                       .b = l->of_q->piece,
                                       .shadow = true,
                                       .row = true,
+                                      .priced = l->priced,
                                       .clearance = NAN,
                                       .vague = 0x1p-48 * (4 * l->reach + fabs(least))};
     if (!sunder_i_reserve(&f->piece, &f->piece_capacity, f->pieces + 1, sizeof *f->piece) ||
@@ -446,7 +449,8 @@ static bool add_all(listing *l)
 
 static bool add_all_priced(listing *l)
 {
-    return add_pieces(l) && add_priced_covers(l, l->p, l->q, false) && add_priced_covers(l, l->q, l->p, true);
+    return add_row(l) && add_pieces(l) && add_priced_covers(l, l->p, l->q, false) &&
+           add_priced_covers(l, l->q, l->p, true);
 }
 
 static void set_bodies(listing *l, uint32_t p, uint32_t q)
@@ -527,7 +531,7 @@ bool sunder_i_forbidden_add_joined(sunder_i_forbidden *forbidden, const sunder_i
     sunder_i_forbidden_piece piece = {.edge = (uint32_t)forbidden->edges, .priced = true, .joined = true};
     for (size_t k = 0; k < forbidden->pieces && !piece.a; k++) {
         const sunder_i_forbidden_piece *p = &forbidden->piece[k];
-        if (!p->priced || sunder_i_whole_of(model, p->a->feature) != joined->f ||
+        if (!p->priced || p->row || sunder_i_whole_of(model, p->a->feature) != joined->f ||
             sunder_i_whole_of(model, p->b->feature) != joined->g)
             continue;
         piece.a = p->a;

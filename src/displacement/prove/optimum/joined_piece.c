@@ -26,7 +26,7 @@ typedef struct growing {
 /* Is piece p of the two things? */
 static bool is_of(const sunder_i_model *model, const sunder_i_forbidden_piece *p, uint32_t f, uint32_t g)
 {
-    return p->priced && !p->joined && sunder_i_whole_of(model, p->a->feature) == f &&
+    return p->priced && !p->row && !p->joined && sunder_i_whole_of(model, p->a->feature) == f &&
            sunder_i_whole_of(model, p->b->feature) == g;
 }
 

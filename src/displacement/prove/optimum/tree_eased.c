@@ -164,7 +164,7 @@ static bool is_again(const sunder_i_model *model, const sunder_i_forbidden *f, s
     const uint32_t a = sunder_i_whole_of(model, f->piece[k].a->feature),
                    b = sunder_i_whole_of(model, f->piece[k].b->feature);
     for (size_t m = 0; m < k; m++)
-        if (f->piece[m].priced && sunder_i_whole_of(model, f->piece[m].a->feature) == a &&
+        if (f->piece[m].priced && !f->piece[m].row && sunder_i_whole_of(model, f->piece[m].a->feature) == a &&
             sunder_i_whole_of(model, f->piece[m].b->feature) == b)
             return true;
     return false;
@@ -181,7 +181,7 @@ bool sunder_i_tree_join_pieces(sunder_i_tree *tree, bool now, sunder_i_joined **
         const double u[2] = {to[0] - from[0], to[1] - from[1]},
                      lacks = sunder_i_max(lacking(&tree->eased[k], u), now ? 0 : tree->program.lacks[k]);
         for (size_t m = 0; m < f->pieces; m++) {
-            if (!f->piece[m].priced || is_again(model, f, m)) continue;
+            if (!f->piece[m].priced || f->piece[m].row || is_again(model, f, m)) continue;
             const double more = lacks - f->piece[m].radius;
             bool any;
             if (!sunder_i_reserve(list, capacity, *n + 1, sizeof **list)) return false;
