@@ -3,7 +3,8 @@
 Makes layers of worlds that are far from each other: one to four houses of one, two or three rectangles, with limits and
 weights of their own, and up to two roads of one to three segments that bend at right angles; some layers are turned by
 an angle whose sine is 4/5. What a pair lacks is computed from the rectangles of its relative moves: the distance to
-them, or the depth in their union.
+them, or the depth in their union. Others have rows (found by rows_rule.py), with springs and the rule that neighbours
+keep their order, and some a least gap: then every pair may stand between the two gaps, at its price.
 
 Asked of each layer: the printed cost is that of the moves and prices of the printed layout. Layouts of each world are
 looked for at random and by descent, in which no solved pair comes into conflict and no listed one stands worse than at
@@ -18,7 +19,10 @@ import sqlite3
 import subprocess
 import sys
 
+import rows_rule
+
 APART, WORLDS, GAP, KAPPAS = 4000, 4, 3.0, (5.0, 30.0, 200.0)
+STIFF = ((3.0, 0.3), (10.0, 1.0))  # across a row, and along it
 
 
 def rounded(v):
@@ -53,6 +57,30 @@ class World:
                 line.append((*at, *to))
                 at = to
             self.road.append((line, rng.choice((0.0, 3.0))))
+        self.edges = []
+
+    def line_up(self, rng):
+        """Puts three or four houses of one rectangle side by side, and finds the edges of rows."""
+        x, self.house, count = 0.0, [], rng.randrange(3, 5)
+        for _ in range(count):
+            w, y = rounded(rng.uniform(5, 12)), rng.choice((0.0, 0.0, 0.5, 1.0))
+            self.house.append([(x, y, x + w, y + rng.choice((8.0, 9.0)))])
+            x += w + rng.choice((0.5, 0.5, 1.0, 2.0, 4.0))
+        self.most = [rng.choice((0.0, 2.0, 5.0, 8.0, 8.0)) for _ in range(count)]
+        self.weight = [rng.choice((1.0, 1.0, rng.uniform(0.3, 5))) for _ in range(count)]
+
+    def find_rows(self):
+        """Returns whether the edges could be decided."""
+        houses = [rows_rule.House([[outline(h)]]) for h in self.house]
+        lines = [((a, b), (c, d)) for line, _ in self.road for a, b, c, d in line]
+        try:
+            rows = rows_rule.rows_of([[k] for k in range(len(houses))], houses, lines, GAP)
+        except rows_rule.Undecided:
+            return False
+        for edge in (edge for row, _ in rows for _, edge in row):
+            stand = [rows_rule.extent(houses[k], edge.axis) for k in (edge.i, edge.j)]
+            self.edges.append((edge.i, edge.j, edge.axis, rows_rule.apart(*stand)))
+        return True
 
     def pairs(self):
         """(name, i, j, rectangles of the relative move t_j - t_i, distance to keep); j is None for a road."""
@@ -114,20 +142,30 @@ def depth(rectangles, x, y):
 
 
 class Judge:
-    """The costs of layouts of one world."""
+    """The costs of layouts of one world. slack: by how much the least gap is less than the gap."""
 
-    def __init__(self, world, listed, kappa):
-        self.world, self.pair = world, []
+    def __init__(self, world, listed, kappa, slack, stiff):
+        self.world, self.pair, self.edge = world, [], []
+        near = {}
         for name, i, j, rectangles, owed in world.pairs():
             price, home = world.price(i, j, kappa), lacks(rectangles, owed, 0, 0)
+            near[name] = home > 0
             if name in listed:
-                most = home if listed[name] > owed else min(home, owed)
+                most = max(home if listed[name] > owed else min(home, owed), slack)
                 p, q = world.house[i], world.house[j] if j is not None else []
                 if j is not None and (lies_in(p, q) or lies_in(q, p)):
                     most = math.inf
                 self.pair.append((i, j, rectangles, owed, price, most + 1e-8))
             elif price:
-                self.pair.append((i, j, rectangles, owed, None, 1e-8))
+                self.pair.append((i, j, rectangles, owed, price if slack else None, slack + 1e-8))
+        for i, j, axis, apart in world.edges:
+            name, axis = (min(i, j), max(i, j)), axis if i < j else (-axis[0], -axis[1])
+            full, weight = GAP - apart, min(world.weight[i], world.weight[j])
+            least, ruled = min(0, full), apart > 0 and (world.most[i] > 0 or world.most[j] > 0)
+            if near[name] and name not in listed:
+                least = max(full - slack, least)
+            self.edge.append((*name, axis, least - 1e-8 if ruled else -math.inf,
+                              full if ruled and slack and near[name] else -math.inf, weight * stiff[0], weight * stiff[1]))
 
     def cost(self, t):
         world, cost = self.world, 0.0
@@ -136,11 +174,20 @@ class Judge:
             if square > most * most * (1 + 1e-12):
                 return math.inf
             cost += weight * square
+        along = {}
+        for i, j, (x, y), least, full, across, stretch in self.edge:
+            u, v = t[j][0] - t[i][0], t[j][1] - t[i][1]
+            ahead = u * x + v * y
+            if ahead < least:
+                return math.inf
+            along[i, j] = full - ahead
+            cost += across * (v * x - u * y) ** 2 + stretch * ahead * ahead
         for i, j, rectangles, owed, price, most in self.pair:
             s = lacks(rectangles, owed, (t[j][0] if j is not None else 0) - t[i][0],
                       (t[j][1] if j is not None else 0) - t[i][1])
             if s > most:
                 return math.inf
+            s = max(s, along.get((i, j), 0))
             if price:
                 cost += s * (price[0] + price[1] * s)
         return cost
@@ -212,12 +259,12 @@ def write_layers(worlds, turn):
     return houses, [None] + roads
 
 
-def run(program, houses, roads, worlds, turn, kappa):
+def run(program, houses, roads, worlds, turn, words):
     """The moves and listed pairs of each world, and the statistics."""
-    done = subprocess.run([program, "separate", "b.gpkg", "bo.gpkg", "--overwrite", "--rows", "no", "--gap", repr(GAP),
+    done = subprocess.run([program, "separate", "b.gpkg", "bo.gpkg", "--overwrite", *words, "--gap", repr(GAP),
                            "--input-layer", "houses", "--no-blocks", "--contained", "separate", "--allow-jumps",
                            "--max-shift-field", "most", "--weight-field", "w", "--barrier",
-                           "b.gpkg,layer=roads,width-field=width,side=no", "--ease", repr(kappa), "--stats", "b.json"],
+                           "b.gpkg,layer=roads,width-field=width,side=no", "--stats", "b.json"],
                           capture_output=True, text=True)
     assert done.returncode in (0, 3), done.stderr
     data = sqlite3.connect("bo.gpkg")
@@ -227,7 +274,7 @@ def run(program, houses, roads, worlds, turn, kappa):
         x, y = x or 0.0, y or 0.0
         move[k][i] = ((3 * x + 4 * y) / 5, (3 * y - 4 * x) / 5) if turn else (x, y)
     for a, b, barrier, road, missing in data.execute(
-            "SELECT fid_a, fid_b, barrier, barr_fid, missing FROM houses_conflicts"):
+            "SELECT fid_a, fid_b, barrier, barr_fid, missing FROM houses_conflicts WHERE kind != 'tight'"):
         k, i = houses[a - 1]
         listed[k][(i, -1 - roads[road - 1][1]) if barrier else tuple(sorted((i, houses[b - 1][1])))] = missing
     data.close()
@@ -237,12 +284,21 @@ def run(program, houses, roads, worlds, turn, kappa):
 def check_layer(program, seed, effort):
     rng = random.Random(seed)
     turn, kappa = rng.random() < 0.3, rng.choice(KAPPAS)
-    worlds = [World(rng, 1e-9 if turn else 0.0) for _ in range(WORLDS)]
+    rows, least_gap, stiff = not turn and rng.random() < 0.6, rng.choice((GAP, GAP, 0.0, 1.0, 2.5)), rng.choice(STIFF)
+    worlds = []
+    while len(worlds) < WORLDS:
+        world = World(rng, 1e-9 if turn else 0.0)
+        if rows and rng.random() < 0.75:
+            world.line_up(rng)
+        if not rows or world.find_rows():
+            worlds.append(world)
     houses, roads = write_layers(worlds, turn)
-    move, listed, d = run(program, houses, roads, worlds, turn, kappa)
+    words = ["--ease", repr(kappa), "--least-gap", repr(least_gap), "--rows", "auto" if rows else "no"]
+    words += ["--row-stiffness", "%r,%r" % stiff] if rows else []
+    move, listed, d = run(program, houses, roads, worlds, turn, words)
     trouble, costs, least = [], [], []
     for k, world in enumerate(worlds):
-        judge = Judge(world, listed[k], kappa)
+        judge = Judge(world, listed[k], kappa, GAP - least_gap, stiff)
         cost = judge.cost(move[k])
         for name, i, j, rectangles, owed in world.pairs():
             s = listed[k].get(name)
