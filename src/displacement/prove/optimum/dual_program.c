@@ -35,6 +35,8 @@
 /* A cut is a combination of others if the part of its square that is orthogonal to them is a smaller share than
  * this. */
 #define DEPENDENT 1e-11
+/* The share for cuts that are solved anew after one could not be added. */
+#define NEARLY_DEPENDENT 1e-8
 #define NO_FACTOR 1e-9
 #define FEWEST_ROWS 32
 
@@ -52,8 +54,8 @@ bool sunder_i_dual_init(sunder_i_dual_program *program, size_t bodies, size_t pr
 
 void sunder_i_dual_free(sunder_i_dual_program *program)
 {
-    sunder_i_free_all(program->acting, program->factor, program->t, program->net, program->lacks, program->push,
-                      program->scratch);
+    sunder_i_free_all(program->acting, program->before, program->factor, program->t, program->net, program->lacks,
+                      program->push, program->scratch);
     memset(program, 0, sizeof *program);
 }
 
@@ -65,10 +67,12 @@ static bool reserve_rows(sunder_i_dual_program *p, size_t n)
     while (capacity < n) capacity *= 2;
     sunder_i_cut_force *acting = sunder_i_realloc(p->acting, capacity, sizeof *acting);
     if (acting) p->acting = acting;
+    sunder_i_cut_force *before = sunder_i_realloc(p->before, capacity, sizeof *before);
+    if (before) p->before = before;
     double *scratch = sunder_i_realloc(p->scratch, 3 * capacity, sizeof *scratch);
     if (scratch) p->scratch = scratch;
     double *factor = sunder_i_alloc(capacity * capacity, sizeof *factor);
-    if (!acting || !scratch || !factor) {
+    if (!acting || !before || !scratch || !factor) {
         sunder_i_free(factor);
         return false;
     }
@@ -218,14 +222,15 @@ static void balance_forces(sunder_i_dual_program *p)
     p->steps += 1 + p->acting_n * p->acting_n / 8;
 }
 
-bool sunder_i_dual_load(sunder_i_dual_program *program, const sunder_i_cut_force *acting, size_t n)
+/* Starts from n active cuts. Those are dropped whose part orthogonal to those before is a smaller share of their square
+ * than `dependent`. */
+static void load_cuts(sunder_i_dual_program *program, const sunder_i_cut_force *acting, size_t n, double dependent)
 {
-    if (!reserve_rows(program, n + 1)) return false;
     program->acting_n = 0;
     for (size_t k = 0; k < n; k++) {
         double square;
         const double left = make_row(program, &program->cut[acting[k].cut], program->scratch, &square);
-        if (left > DEPENDENT * square)
+        if (left > dependent * square)
             append_row(program, acting[k].cut, acting[k].force, program->scratch, sqrt(left));
     }
     for (;;) {
@@ -237,6 +242,12 @@ bool sunder_i_dual_load(sunder_i_dual_program *program, const sunder_i_cut_force
         take_out(program, worst);
     }
     sunder_i_dual_place(program);
+}
+
+bool sunder_i_dual_load(sunder_i_dual_program *program, const sunder_i_cut_force *acting, size_t n)
+{
+    if (!reserve_rows(program, n + 1)) return false;
+    load_cuts(program, acting, n, DEPENDENT);
     return true;
 }
 
@@ -283,12 +294,10 @@ static double least_factor(const sunder_i_dual_program *p, const double *r)
     return NO_FACTOR * most;
 }
 
-sunder_i_dual_outcome sunder_i_dual_add(sunder_i_dual_program *program, uint32_t cut, double enough, bool *failed)
+static sunder_i_dual_outcome add_cut(sunder_i_dual_program *program, uint32_t cut, double enough)
 {
     const sunder_i_move_cut *c = &program->cut[cut];
     double force = 0;
-    *failed = !reserve_rows(program, program->acting_n + 2);
-    if (*failed) return SUNDER_I_DUAL_STUCK;
     for (size_t round = 0; round < 4 * program->acting_n + 64; round++) {
         double *row = program->scratch, *r = program->scratch + program->capacity, square;
         const double left = make_row(program, c, row, &square);
@@ -326,10 +335,23 @@ sunder_i_dual_outcome sunder_i_dual_add(sunder_i_dual_program *program, uint32_t
         }
         take_out(program, leaves);
     }
-    balance_forces(program);
-    for (size_t k = 0; k < program->acting_n; k++) program->acting[k].force = sunder_i_max(0, program->acting[k].force);
-    sunder_i_dual_place(program);
     return SUNDER_I_DUAL_STUCK;
+}
+
+/* If the cut cannot be added, the cuts that were active before are solved anew, with a fresh factor and without those
+ * that nearly depend on others, and it is tried once more; then it is left out. Otherwise forces that rounding has made
+ * great would move bodies far away. */
+sunder_i_dual_outcome sunder_i_dual_add(sunder_i_dual_program *program, uint32_t cut, double enough, bool *failed)
+{
+    const size_t before = program->acting_n;
+    sunder_i_dual_outcome outcome = SUNDER_I_DUAL_STUCK;
+    *failed = !reserve_rows(program, before + 2);
+    if (!*failed && before) memcpy(program->before, program->acting, before * sizeof *program->before);
+    for (int attempt = 0; attempt < 2 && outcome == SUNDER_I_DUAL_STUCK && !*failed; attempt++) {
+        outcome = add_cut(program, cut, enough);
+        if (outcome == SUNDER_I_DUAL_STUCK) load_cuts(program, program->before, before, NEARLY_DEPENDENT);
+    }
+    return outcome;
 }
 
 /* ---- The bound that the forces prove ----------------------------------------------------------------------------- */

@@ -40,6 +40,7 @@ typedef struct sunder_i_dual_program {
     size_t prices;
     const sunder_i_move_cut *cut;
     sunder_i_cut_force *acting; /* [acting_n] the active cuts */
+    sunder_i_cut_force *before; /* scratch: those before one was added */
     size_t acting_n, capacity;
     double *factor; /* [capacity^2] the lower triangle of the Cholesky factor of the active cuts' products, by rows */
     double *t;      /* [2 * bodies] the minimiser for these forces */
