@@ -645,7 +645,8 @@ typedef enum sunder_feature_status {
     SUNDER_FEATURE_MOVED,
     SUNDER_FEATURE_FIXED,
     SUNDER_FEATURE_BLOCKED, /* it could move, and still has a conflict */
-    SUNDER_FEATURE_SKIPPED  /* it is ignored */
+    SUNDER_FEATURE_SKIPPED, /* it is ignored */
+    SUNDER_FEATURE_HIDDEN   /* it is left out: sunder_layer_set_hiding() in sunder_hiding.h */
 } sunder_feature_status;
 
 /* "unmoved", "moved", "fixed", "blocked", "skipped". */
@@ -667,6 +668,7 @@ typedef enum sunder_conflict_kind {
     SUNDER_CONFLICT_NOT_A_TRANSLATE, /* no move of a makes its coordinates what they are now */
     SUNDER_CONFLICT_ROW,             /* a and b do not keep their order in their row: b moved, relative to a and along
                                       * the row, by `distance`, and at least `required` was allowed */
+    SUNDER_CONFLICT_NEEDLESS,        /* a is hidden, but would be in no conflict where it stood or where its block is */
     /* The pair is no conflict: it keeps the gap, but not the full gap. It has no reason, and blocks no feature. */
     SUNDER_CONFLICT_TIGHT
 } sunder_conflict_kind;
@@ -790,10 +792,11 @@ SUNDER_API sunder_status sunder_layer_check(const sunder_layer *layer, const sun
 
 /* Lists the rules that the moves from `before` to `after` broke, whatever program made them. The two layers have the
  * same features in the same order. Each broken rule is a conflict of the report, of one of the kinds from
- * SUNDER_CONFLICT_WORSE to SUNDER_CONFLICT_ROW; summary.verified is true if there is none. Limits, blocks, and fixed
- * and ignored features are those of `before`; the options should be those of the run that made the moves. Two things
- * are not checked: whether the features of a block moved together, and the move of a repaired shape that was written in
- * its repaired form, which is not known.
+ * SUNDER_CONFLICT_WORSE to SUNDER_CONFLICT_NEEDLESS; summary.verified is true if there is none. Limits, blocks, and
+ * fixed and ignored features are those of `before`. What is ignored in `after` alone is hidden: it owes nothing, and
+ * nothing is owed to it. The options should be those of the run that made the moves. Two things are not checked:
+ * whether the features of a block moved together, and the move of a repaired shape that was written in its repaired
+ * form, which is not known.
  *
  * Fails   as sunder_layer_check(), and with SUNDER_EARG for layers of different sizes */
 SUNDER_EXPERIMENTAL sunder_status sunder_layer_check_moves(const sunder_layer *before, const sunder_layer *after,

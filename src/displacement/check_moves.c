@@ -4,7 +4,10 @@
  * rounding of its coordinates to doubles. Its move is checked against its limit, against the rule against jumps
  * together with the moves of all others, against the sides of barriers and, if rows are wanted, against the rule of
  * rows. No pair that is in conflict afterwards may be worse than before. Blocks, limits, rows and fixed features are
- * those of the layer before. */
+ * those of the layer before.
+ *
+ * A feature that is ignored in the layer after alone is hidden: it owes nothing, and nothing is owed to it. It is
+ * needless if it would be in no conflict where it stood, moved with its block. */
 #include "displacement/layer/barrier_pairs.h"
 #include "displacement/layer/rounding.h"
 #include "displacement/report/report.h"
@@ -25,8 +28,9 @@ typedef struct comparison {
     sunder_i_placement placement; /* first the positions in `before`, then those in `after` */
     sunder_i_relations start, now;
     sunder_i_jumps jumps;
-    double *move;     /* [2 * features] the move of each feature between the two layers */
-    bool *translated; /* [features] whether the feature is a translate */
+    double *move;             /* [2 * features] the move of each feature between the two layers */
+    bool *hidden, any_hidden; /* [features] the features that are left out afterwards; whether there are any */
+    bool *translated;         /* [features] whether the feature is a translate */
     sunder_conflict *found;
     size_t n, capacity;
 } comparison;
@@ -38,7 +42,7 @@ static void clear_comparison(comparison *c)
     sunder_i_model_free(&c->model);
     sunder_i_barriers_free(&c->barriers);
     sunder_i_ordered_clear(&c->layer);
-    sunder_i_free_all(c->start.pair, c->now.pair, c->move, c->translated, c->found);
+    sunder_i_free_all(c->start.pair, c->now.pair, c->move, c->translated, c->hidden, c->found);
 }
 
 static sunder_conflict *add_conflict(comparison *c, sunder_conflict_kind kind, size_t a, size_t b)
@@ -133,13 +137,26 @@ static sunder_status check_paths(comparison *c, sunder_error *err)
     return status;
 }
 
-/* Finds the rows of the layer before, and their rule. */
+/* Marks the features that are hidden: they are ignored in the layer after, and not in the one before. */
+static sunder_status mark_hidden(comparison *c, sunder_error *err)
+{
+    c->hidden = sunder_i_calloc(c->before->n, sizeof *c->hidden);
+    for (size_t f = 0; f < c->before->n && c->hidden; f++) {
+        c->hidden[f] = sunder_i_demands(c->after, f)->ignored && c->model.present[f];
+        c->any_hidden = c->any_hidden || c->hidden[f];
+    }
+    return c->hidden ? SUNDER_OK : sunder_i_failure_cause(err);
+}
+
+/* Finds the rows of the layer before, and their rule. Then leaves out what is hidden. */
 static sunder_status find_rows(comparison *c, sunder_error *err)
 {
     sunder_i_rows rows = {0};
-    if (!c->model.rules.rows) return SUNDER_OK;
-    sunder_status status = sunder_i_rows_find(&c->model, &rows, err);
-    if (!status) status = sunder_i_rows_make_rule(&rows, &c->placement, &c->start, &c->model, err);
+    const bool wanted = c->model.rules.rows != SUNDER_ROWS_NONE;
+    sunder_status status = wanted ? sunder_i_rows_find(&c->model, &rows, err) : SUNDER_OK;
+    if (!status && c->any_hidden) status = sunder_i_placement_hide(&c->model, &c->placement, &c->start, c->hidden, err);
+    sunder_i_rows_forget_hidden(&rows, &c->model);
+    if (!status && wanted) status = sunder_i_rows_make_rule(&rows, &c->placement, &c->start, &c->model, err);
     sunder_i_rows_free(&rows);
     return status;
 }
@@ -234,12 +251,42 @@ static sunder_status find_worse(comparison *c, sunder_error *err)
     return status;
 }
 
+/* Sets t to the move of the body of hidden feature f, which is that of a visible member; zeros if there is none. */
+static void move_of_body(const comparison *c, uint32_t f, double t[2])
+{
+    const sunder_i_body *body = &c->model.body[c->model.body_of[f]];
+    t[0] = t[1] = 0;
+    for (uint32_t m = 0; m < body->members; m++) {
+        const uint32_t g = c->model.member[body->member + m];
+        if (!c->model.present[g] || !c->translated[g]) continue;
+        for (size_t k = 0; k < 2; k++) t[k] = c->move[2 * (size_t)g + k];
+        return;
+    }
+}
+
+/* Records the hidden features that would be in no conflict. */
+static sunder_status check_hidden(comparison *c, sunder_error *err)
+{
+    sunder_status status = SUNDER_OK;
+    for (uint32_t f = 0; f < c->model.features && c->any_hidden && !status; f++) {
+        bool fits = false;
+        double t[2];
+        if (!c->hidden[f]) continue;
+        move_of_body(c, f, t);
+        status = sunder_i_placement_fits(&c->model, &c->placement, f, t, &fits, err);
+        if (!status && fits && !add_conflict(c, SUNDER_CONFLICT_NEEDLESS, f, SIZE_MAX))
+            status = sunder_i_failure_cause(err);
+    }
+    return status;
+}
+
 /* Records these pairs as the report describes conflicts, with their distances before. */
 static sunder_status check_pairs(comparison *c, sunder_report *report, sunder_error *err)
 {
     sunder_status status = place_after(c, err);
     if (!status) status = sunder_i_placement_relate(&c->model, &c->placement, NULL, &c->now, err);
     if (!status) report->summary.pairs_tested = c->now.tested;
+    if (!status) status = check_hidden(c, err);
     if (!status) status = check_rows(c, err);
     if (!status) status = find_worse(c, err);
     if (!status) status = sunder_i_report_conflicts(report, &c->model, &c->placement, &c->now, false, err);
@@ -280,6 +327,7 @@ static sunder_status begin_comparison(comparison *c, const sunder_layer_options 
     if (!status) status = sunder_i_model_join(&c->model, &c->start, err);
     if (!status) status = sunder_i_model_cut(&c->model, err);
     if (!status) status = sunder_i_model_anchor(&c->model, err);
+    if (!status) status = mark_hidden(c, err);
     if (!status) status = find_rows(c, err);
     if (status) return status;
     c->move = sunder_i_calloc(2 * c->before->n, sizeof *c->move);
@@ -295,7 +343,7 @@ static sunder_status compare_layers(comparison *c, const sunder_layer_options *o
     if (!status) status = sunder_i_report_new(&c->model, report, err);
     if (!status) status = sunder_i_report_features(*report, &c->model, err);
     for (uint32_t f = 0; f < c->before->n && !status; f++) {
-        if (sunder_i_demands(c->before, f)->ignored)
+        if (sunder_i_demands(c->before, f)->ignored || c->hidden[f])
             c->translated[f] = true;
         else
             status = check_feature(c, f, err);

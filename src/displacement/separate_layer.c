@@ -7,6 +7,7 @@
  *
  * Such rounds are run by solve/clusters/settle.c, and solve_layer.c contains the order in which it is called, as a
  * table. This file contains what comes before and after. */
+#include "displacement/hide/hiding.h"
 #include "displacement/prove/proofs/feasibility.h"
 #include "displacement/report/report.h"
 #include "displacement/solve/clusters/cluster_stages.h"
@@ -82,23 +83,31 @@ static sunder_status prepare_search(sunder_i_solver *s, sunder_error *err)
     return begin_as_at_start(s) ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
-/* Finds the rows of the layer as it is given, and the rule that keeps their order. */
-static sunder_status find_rows(sunder_i_solver *s, sunder_error *err)
+/* Leaves out the features that are hidden, by the caller's numbers, with their edges of rows. */
+static sunder_status leave_out(sunder_i_solver *s, const bool *hidden, sunder_error *err)
 {
-    if (!s->model.rules.rows) return SUNDER_OK;
-    const sunder_status status = sunder_i_rows_find(&s->model, &s->rows, err);
-    return status ? status : sunder_i_rows_make_rule(&s->rows, &s->placement, &s->start, &s->model, err);
+    bool *own = sunder_i_alloc(s->model.features, sizeof *own);
+    if (!own) return sunder_i_failure_cause(err);
+    for (size_t f = 0; f < s->model.features; f++) own[f] = hidden[s->layer.number[f]];
+    const sunder_status status = sunder_i_placement_hide(&s->model, &s->placement, &s->start, own, err);
+    sunder_i_free(own);
+    sunder_i_rows_forget_hidden(&s->rows, &s->model);
+    return status;
 }
 
-/* Does everything up to the point where the report begins. */
+/* Does everything up to the point where the report begins. hidden: NULL, or the features that are left out, by the
+ * caller's numbers; blocks, inclusions and rows are those of all features. */
 static sunder_status find_moves(sunder_i_solver *s, const sunder_layer *layer, const sunder_layer_options *options,
-                                sunder_report **report, sunder_error *err)
+                                const bool *hidden, sunder_report **report, sunder_error *err)
 {
     sunder_status status = read_layer(s, layer, options, TO_SEPARATE, report, err);
+    const bool rows = !status && s->model.rules.rows;
+    if (rows) status = sunder_i_rows_find(&s->model, &s->rows, err);
+    if (!status && hidden) status = leave_out(s, hidden, err);
     if (!status) status = sunder_i_solver_begin_holding(s, err);
     if (!status) status = sunder_i_solver_find_infeasible(s, NULL, err);
     if (!status) status = prepare_search(s, err);
-    if (!status) status = find_rows(s, err);
+    if (!status && rows) status = sunder_i_rows_make_rule(&s->rows, &s->placement, &s->start, &s->model, err);
     if (!status) status = sunder_i_solver_begin_holding(s, err);
     if (!status && !sunder_i_progress(&s->model.rules, SUNDER_I_PREPARED)) status = sunder_i_failure_cause(err);
     if (!status) status = sunder_i_layer_solve(s, err);
@@ -265,12 +274,51 @@ static sunder_status renumber_report(sunder_i_solver *s, sunder_report *report, 
     return status;
 }
 
+/* Lists the conflicts of a layout with their reasons and proofs. */
+static sunder_status find_reasons(sunder_i_solver *s, sunder_report *report, sunder_error *err)
+{
+    sunder_i_solver_forget_clusters(s);
+    sunder_i_solver_end_holding(s);
+    sunder_status status = relate_last(s, err);
+    if (!status) status = sunder_i_report_cover_diagonals(s, err);
+    if (!status) status = sunder_i_report_conflicts(report, &s->model, &s->placement, &s->now, true, err);
+    return status ? status : sunder_i_report_proofs(report, s, sunder_i_decide, err);
+}
+
+/* Lays out the features that are not hidden, and hides more, until nothing remains for which one may be hidden. */
+static sunder_status lay_out_visible(sunder_i_solver *s, const sunder_layer *layer, const sunder_layer_options *options,
+                                     sunder_i_hiding *hiding, sunder_report **report, sunder_error *err)
+{
+    bool again = true;
+    sunder_status status = sunder_i_hiding_begin(layer, hiding, err);
+    while (again && !status) {
+        sunder_i_solver_free(s);
+        sunder_report_free(*report);
+        memset(s, 0, sizeof *s);
+        *report = NULL;
+        sunder_layer_options with = *options;
+        if (!hiding->thorough) { /* never the last layout: easing changes no verdict */
+            with.effort = 0;
+            if (with.full_gap <= with.gap) with.ease = 0;
+        }
+        status = find_moves(s, layer, &with, hiding->hidden, report, err);
+        if (!status) status = find_reasons(s, *report, err);
+        if (!status) status = sunder_i_hiding_learn(hiding, &s->model, s->layer.number, *report, &again, err);
+    }
+    if (!status) sunder_i_report_forget_conflicts(*report);
+    return status;
+}
+
 static sunder_status separate_layer(sunder_i_solver *s, const sunder_layer *layer, const sunder_layer_options *options,
                                     sunder_report **report, sunder_error *err)
 {
     const double began = sunder_i_now();
-    sunder_status status = find_moves(s, layer, options, report, err);
+    sunder_i_hiding hiding = {0};
+    sunder_status status = layer->hiding ? lay_out_visible(s, layer, options, &hiding, report, err)
+                                         : find_moves(s, layer, options, NULL, report, err);
     if (!status) status = conclude_report(s, options, *report, began, err);
+    if (!status && layer->hiding) status = sunder_i_hiding_report(&hiding, *report, err);
+    sunder_i_hiding_free(&hiding);
     const sunder_i_rules rules = s->model.rules;
     if (!status) status = renumber_report(s, *report, err);
     if (!status) sunder_i_progress(&rules, 1);

@@ -25,7 +25,7 @@ grep -q -- '--max-shift-field' "$site/gis/sunder.1.html" || fail "the manual lac
 for page in ${manual:+"$manual"/sunder-*.1}; do
     [ ! -f "$page" ] || [ -s "$site/manual/$(basename "$page").html" ] || fail "no page of $(basename "$page")"
 done
-for header in sunder sunder_proof sunder_parts; do
+for header in sunder sunder_proof sunder_parts sunder_hiding; do
     page=$site/reference/${header//_/__}_8h.html
     python3 "$here/described.py" "$SUNDER_SOURCE/src/$header.h" "$page" || fail "the reference of $header.h lacks these"
 done

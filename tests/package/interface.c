@@ -3,6 +3,7 @@
  * status 1. */
 #include <sunder.h>
 #include <sunder_parts.h>
+#include <sunder_hiding.h>
 #include <sunder_proof.h>
 
 #include <math.h>

@@ -70,7 +70,7 @@ interface() { # name of the language, compiler, the compiler's option for the la
     local name=$1 compiler=$2 language=$3 standard header got
     shift 3
     for standard in "$@"; do
-        for header in sunder sunder_proof sunder_parts; do
+        for header in sunder sunder_proof sunder_parts sunder_hiding; do
             printf '#include <%s.h>\n' "$header" >"$work/first.c"
             "$compiler" -x "$language" "-std=$standard" "${flags[@]}" -fsyntax-only "$work/first.c"
         done
@@ -106,7 +106,7 @@ if command -v nm >/dev/null; then
     # Each declaration is marked stable or experimental; in a header that is experimental as a whole all are marked so.
     cat "$prefix"/include/sunder*.h >"$work/headers"
     grep -E '^(SUNDER_API|SUNDER_EXPERIMENTAL) ' "$work/headers" | grep -o 'sunder_[a-z_]*(' | tr -d '(' | sort >"$work/declared"
-    if grep -n '^SUNDER_API' "$prefix/include/sunder_proof.h" "$prefix/include/sunder_parts.h"; then
+    if grep -n '^SUNDER_API' "$prefix/include/sunder_proof.h" "$prefix/include/sunder_parts.h" "$prefix/include/sunder_hiding.h"; then
         echo "stable, in a header that says that all of it is experimental"
         exit 1
     fi

@@ -200,7 +200,9 @@ sunder_status sunder_i_model_unite(sunder_i_model *model, const uint32_t *body, 
 double sunder_i_weight_below(const sunder_i_model *model, const sunder_i_body *body)
 {
     double w = 0;
-    for (uint32_t k = 0; k < body->members; k++)
-        w += sunder_i_feature(model->layer, model->member[body->member + k]).weight;
+    for (uint32_t k = 0; k < body->members; k++) {
+        const uint32_t f = model->member[body->member + k];
+        if (model->present[f]) w += sunder_i_feature(model->layer, f).weight; /* the others are hidden */
+    }
     return body->members > 1 ? w * (1 - body->members * 0x1p-52) : w;
 }

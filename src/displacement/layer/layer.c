@@ -125,9 +125,22 @@ sunder_status sunder_layer_set_rows(sunder_layer *layer, const int64_t *row, sun
     return SUNDER_OK;
 }
 
+sunder_status sunder_layer_set_hiding(sunder_layer *layer, const sunder_hiding_cost *cost, sunder_error *err)
+{
+    void *copy;
+    for (size_t k = 0; cost && k < layer->n; k++)
+        if (cost[k].weight < 1 || cost[k].weight > SUNDER_GREATEST_HIDING_WEIGHT)
+            return sunder_i_fail(err, SUNDER_EARG, "feature %zu: the weight for hiding it, %lld, is out of range", k,
+                                 (long long)cost[k].weight);
+    if (!copy_items(cost, layer->n, sizeof *cost, &copy)) return sunder_i_failure_cause(err);
+    sunder_i_free(layer->hiding);
+    layer->hiding = copy;
+    return SUNDER_OK;
+}
+
 void sunder_layer_free(sunder_layer *layer)
 {
     if (!layer) return;
     sunder_i_free_all((void *)layer->shape, layer->demand, layer->demands, layer->barrier, layer->side_anchor,
-                      layer->row, layer);
+                      layer->row, layer->hiding, layer);
 }

@@ -4,6 +4,7 @@
 #define SUNDER_I_LAYER_H
 
 #include "sunder.h"
+#include "sunder_hiding.h"
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -21,6 +22,7 @@ struct sunder_layer {
     double *side_anchor; /* [2 n] side anchors from the caller, not finite where the rule has to find one; NULL: none
                           * are given */
     int64_t *row;        /* [n] the row of each feature, -1 for none, as the caller gives them; NULL: none are given */
+    sunder_hiding_cost *hiding; /* [n] what it costs to hide each; NULL: none is hidden */
     /* A layer in processing order (feature_order.c) stores no features of its own but has the next three; otherwise
      * they are NULL: */
     const sunder_layer *given; /* the layer in the caller's order */

@@ -43,6 +43,14 @@ sunder_status sunder_i_placement_move(sunder_i_model *model, sunder_i_placement 
 sunder_status sunder_i_placement_move_body(sunder_i_model *model, sunder_i_placement *placement, uint32_t body,
                                            sunder_error *err);
 void sunder_i_placement_free(const sunder_i_model *model, sunder_i_placement *placement);
+/* Leaves features out: hidden[f] says of each whether it is. To be called once, when the bodies are joined, and while
+ * everything is at its original position. `relations` are those there (hidden_features.c). */
+sunder_status sunder_i_placement_hide(sunder_i_model *model, sunder_i_placement *placement,
+                                      sunder_i_relations *relations, const bool *hidden, sunder_error *err);
+
+/* Sets *fits if the hidden feature f, moved by t, would be in no conflict with the present positions. */
+sunder_status sunder_i_placement_fits(const sunder_i_model *model, const sunder_i_placement *placement, uint32_t f,
+                                      const double t[2], bool *fits, sunder_error *err);
 
 /* ---- Near pairs -------------------------------------------------------------------------------------------------- */
 

@@ -27,8 +27,9 @@ static double weight_below(const sunder_i_model *model, const sunder_i_body *bod
 {
     double w = 0;
     for (uint32_t k = 0; k < body->members; k++) {
-        const double own = sunder_i_feature(model->layer, model->member[body->member + k]).weight;
-        w = k ? round_down(w + own) : own;
+        const uint32_t f = model->member[body->member + k];
+        const double own = model->present[f] ? sunder_i_feature(model->layer, f).weight : 0;
+        w = w > 0 ? round_down(w + own) : own;
     }
     return w;
 }

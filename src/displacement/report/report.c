@@ -41,7 +41,9 @@ sunder_status sunder_i_report_features(sunder_report *report, const sunder_i_mod
     for (size_t f = 0; f < n; f++) {
         const sunder_feature feature = sunder_i_feature(model->layer, f);
         const bool fixed = model->body[model->body_of[f]].fixed;
+        const bool hidden = sunder_i_is_present(&feature) && !model->present[f];
         report->status[f] = feature.ignored ? SUNDER_FEATURE_SKIPPED
+                            : hidden        ? SUNDER_FEATURE_HIDDEN
                             : fixed         ? SUNDER_FEATURE_FIXED
                                             : SUNDER_FEATURE_UNMOVED;
         if (feature.ignored) report->summary.skipped++;
@@ -81,7 +83,7 @@ void sunder_i_report_moves(sunder_report *report, const sunder_i_model *model)
     sunder_total total = {0}, cost = {0};
     for (size_t f = 0; f < model->features; f++) {
         const double *t = model->move + 2 * (size_t)model->body_of[f];
-        if (t[0] == 0 && t[1] == 0) continue;
+        if ((t[0] == 0 && t[1] == 0) || report->status[f] == SUNDER_FEATURE_HIDDEN) continue;
         report->move[2 * f] = t[0];
         report->move[2 * f + 1] = t[1];
         const double length = hypot(t[0], t[1]);
@@ -101,13 +103,22 @@ void sunder_i_report_moves(sunder_report *report, const sunder_i_model *model)
     count_statuses(report, model);
 }
 
+void sunder_i_report_forget_conflicts(sunder_report *report)
+{
+    for (size_t k = 0; report->proof && k < report->conflicts; k++) sunder_i_proof_free(report->proof[k]);
+    sunder_i_free_all(report->conflict, report->proof, report->blocker);
+    report->conflict = NULL;
+    report->proof = NULL;
+    report->blocker = NULL;
+    report->conflicts = 0;
+}
+
 void sunder_report_free(sunder_report *report)
 {
     if (!report) return;
-    sunder_i_free_all(report->move, report->status, report->block, report->conflict, report->tight,
-                      report->blocker);
-    for (size_t k = 0; report->proof && k < report->conflicts; k++) sunder_i_proof_free(report->proof[k]);
-    sunder_i_free_all(report->proof, report->bound_pair);
+    sunder_i_report_forget_conflicts(report);
+    sunder_i_free_all(report->move, report->status, report->block, report->tight, report->bound_pair, report->clause,
+                      report->clause_number);
     for (size_t k = 0; k < report->bound_trees; k++) sunder_i_bound_tree_free(&report->bound_tree[k]);
     sunder_row_list_free(&report->row_list);
     sunder_i_free_all(report->bound_tree, report->push, report->row_pair, report->row_reach, report->world,
@@ -136,6 +147,7 @@ void sunder_i_count(sunder_conflict_counts *counts, const sunder_conflict *confl
     case SUNDER_CONFLICT_JUMP:
     case SUNDER_CONFLICT_NOT_A_TRANSLATE:
     case SUNDER_CONFLICT_ROW:
+    case SUNDER_CONFLICT_NEEDLESS:
     case SUNDER_CONFLICT_TIGHT: break; /* no conflicts of a layer */
     }
 }
@@ -185,4 +197,15 @@ const sunder_push *sunder_report_pushes(const sunder_report *report, size_t *n)
 const sunder_proof *sunder_report_proof(const sunder_report *report, size_t k)
 {
     return report->proof && !report->stripped && k < report->conflicts ? report->proof[k] : NULL;
+}
+
+void sunder_report_hiding_sized(const sunder_report *report, sunder_hiding_summary *summary, size_t size)
+{
+    sunder_i_sized_struct_write(summary, size, &report->hiding, sizeof report->hiding);
+}
+
+const sunder_clause *sunder_report_clauses(const sunder_report *report, size_t *n)
+{
+    *n = report->hiding.clauses;
+    return report->clause;
 }

@@ -52,6 +52,9 @@ struct sunder_report {
     size_t row_pairs;
     sunder_i_row_figures row_figures;
     sunder_row_list row_list;
+    sunder_hiding_summary hiding;
+    sunder_clause *clause; /* [hiding.clauses] their members and things are in clause_number */
+    size_t *clause_number;
     /* The following are NULL unless the worlds (the parts of the layer that did not influence each other) are
      * wanted. */
     sunder_world *world;
@@ -83,6 +86,8 @@ sunder_status sunder_i_report_features(sunder_report *report, const sunder_i_mod
 /* Fills in moves, statuses, and the sums of them. The sums are exact until they are rounded once, so they do not depend
  * on the number of threads or on the order of the features. */
 void sunder_i_report_moves(sunder_report *report, const sunder_i_model *model);
+/* Removes the list of conflicts, with their proofs. */
+void sunder_i_report_forget_conflicts(sunder_report *report);
 /* Adds one to the count of the conflict's kind. */
 void sunder_i_count(sunder_conflict_counts *counts, const sunder_conflict *conflict);
 

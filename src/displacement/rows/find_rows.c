@@ -219,6 +219,14 @@ sunder_status sunder_i_rows_find(const sunder_i_model *model, sunder_i_rows *row
                                                   : find_rows(model, rows, err);
 }
 
+void sunder_i_rows_forget_hidden(sunder_i_rows *rows, const sunder_i_model *model)
+{
+    size_t n = 0;
+    for (size_t k = 0; k < rows->edges; k++)
+        if (model->present[rows->edge[k].f] && model->present[rows->edge[k].g]) rows->edge[n++] = rows->edge[k];
+    rows->edges = n;
+}
+
 void sunder_i_rows_free(sunder_i_rows *rows)
 {
     sunder_i_free_all(rows->edge, rows->reach);

@@ -33,6 +33,8 @@ typedef struct sunder_i_rows {
  * sunder_i_rows_take_given() does. */
 sunder_status sunder_i_rows_find(const sunder_i_model *model, sunder_i_rows *rows, sunder_error *err);
 void sunder_i_rows_free(sunder_i_rows *rows);
+/* Removes the edges at features that are not present any more. */
+void sunder_i_rows_forget_hidden(sunder_i_rows *rows, const sunder_i_model *model);
 
 /* ---- given_rows.c ------------------------------------------------------------------------------------------------ */
 

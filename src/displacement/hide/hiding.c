@@ -1,0 +1,172 @@
+/* Hiding is an implicit hitting set problem: the clauses that a choice has to satisfy are not known beforehand.
+ *
+ *     repeat  lay the features out that are not hidden
+ *             each conflict that remains gives a clause: the features of its proof cannot all be kept
+ *             hide the cheapest features such that each clause has a hidden member
+ *     until   no conflict remains that a clause can be made of
+ *
+ * A proof that some features have no solution together holds whatever else is hidden, since blocks, limits, inclusions
+ * and rows are those of the whole layer. So clauses of proofs are never given up, and the cheapest choice for them
+ * alone costs no more than any choice that leaves no conflict. A conflict without a proof gives a tentative clause of
+ * its two features; no bound rests on it. The clause of a conflict has no hidden member, so that it is new, and the
+ * loop ends. */
+#include "displacement/hide/hiding.h"
+#include "displacement/hide/tuning.h"
+#include "displacement/prove/proofs/feasibility.h"
+
+#include "base/union_find.h"
+
+#include <string.h>
+
+sunder_status sunder_i_hiding_begin(const sunder_layer *layer, sunder_i_hiding *hiding, sunder_error *err)
+{
+    memset(hiding, 0, sizeof *hiding);
+    hiding->cost = layer->hiding;
+    hiding->n = layer->n;
+    hiding->hidden = sunder_i_calloc(layer->n, sizeof *hiding->hidden);
+    return hiding->hidden ? SUNDER_OK : sunder_i_failure_cause(err);
+}
+
+void sunder_i_hiding_free(sunder_i_hiding *hiding)
+{
+    sunder_i_free(hiding->hidden);
+    sunder_i_clauses_free(&hiding->clauses);
+    memset(hiding, 0, sizeof *hiding);
+}
+
+/* ---- What a conflict proves -------------------------------------------------------------------------------------- */
+
+static bool add_members(const sunder_i_model *model, uint32_t thing, sunder_i_list *set)
+{
+    const sunder_i_body *body = &model->body[model->body_of[thing]];
+    bool ok = true;
+    for (uint32_t m = 0; m < body->members && ok; m++) {
+        const uint32_t f = model->member[body->member + m];
+        if (model->present[f]) ok = sunder_i_list_push(set, f);
+    }
+    return ok;
+}
+
+/* Lists the things that the proof names. With the rule of rows for two blocks it names all of their members. Sets
+ * *proved to false if the proof rests on the coordinates that the corners of a block can have: without some of its
+ * members it can have others. */
+static bool add_things(const sunder_i_model *model, const sunder_proof *proof, bool *proved, sunder_i_list *set)
+{
+    bool ok = true;
+    *proved = true;
+    for (size_t k = 0; k < proof->nodes && ok; k++) {
+        const sunder_proof_node *node = &proof->node[k];
+        const uint32_t a = (uint32_t)node->a, b = (uint32_t)node->b;
+        *proved = *proved && !node->still;
+        if (node->ways == 0) continue;
+        if (node->row)
+            ok = add_members(model, a, set) && add_members(model, b, set);
+        else
+            ok = sunder_i_list_push(set, sunder_i_whole_of(model, a)) &&
+                 sunder_i_list_push(set, sunder_i_whole_of(model, b));
+        if (node->chord && ok) ok = sunder_i_list_push(set, sunder_i_whole_of(model, (uint32_t)node->c));
+    }
+    return ok;
+}
+
+/* Lists what cannot all be kept, because of conflict k. */
+static bool list_things(const sunder_i_model *model, const sunder_report *report, size_t k, bool *proved,
+                        sunder_i_list *set)
+{
+    const sunder_conflict *c = &report->conflict[k];
+    const sunder_proof *proof = report->proof ? report->proof[k] : NULL;
+    set->n = 0;
+    *proved = false;
+    if (proof && !add_things(model, proof, proved, set)) return false;
+    if (*proved) return true;
+    set->n = 0;
+    *proved = c->reason == SUNDER_REASON_FIXED || c->reason == SUNDER_REASON_MAX_SHIFT;
+    return sunder_i_list_push(set, (uint32_t)c->a) && sunder_i_list_push(set, (uint32_t)c->b);
+}
+
+/* ---- Clauses ----------------------------------------------------------------------------------------------------- */
+
+/* Adds the clause of these things, unless none of them may be hidden. */
+static bool add_clause(sunder_i_hiding *h, const uint32_t *number, sunder_i_list *set, bool proved, bool *added)
+{
+    sunder_i_list item = {0};
+    size_t members = 0;
+    bool ok = true;
+    for (size_t m = 0; m < set->n; m++) set->item[m] = number[set->item[m]];
+    set->n = sunder_i_set_make(set->item, set->n);
+    for (int others = 0; others < 2; others++) {
+        for (size_t m = 0; m < set->n && ok; m++) {
+            const bool hideable = set->item[m] < h->n && h->cost[set->item[m]].hierarchy;
+            if (hideable != others) ok = sunder_i_list_push(&item, set->item[m]);
+        }
+        if (!others) members = item.n;
+    }
+    *added = false;
+    if (ok && members)
+        ok = sunder_i_clauses_add(&h->clauses, item.item, members, item.n - members, proved, added);
+    sunder_i_free(item.item);
+    return ok;
+}
+
+/* Is a conflict of the layout, and not of a pair that may stay as it is? */
+static bool counts(const sunder_conflict *c) { return !c->inside_block && c->reason != SUNDER_REASON_KEPT; }
+
+/* Adds the clauses of the conflicts that are proved. */
+static bool add_proved(sunder_i_hiding *h, const sunder_i_model *model, const uint32_t *number,
+                       const sunder_report *report, bool *any)
+{
+    sunder_i_list set = {0};
+    bool ok = true;
+    for (size_t k = 0; k < report->conflicts && ok; k++) {
+        bool proved, added = false;
+        if (!counts(&report->conflict[k])) continue;
+        ok = list_things(model, report, k, &proved, &set);
+        if (ok && proved) ok = add_clause(h, number, &set, true, &added);
+        *any = *any || added;
+    }
+    sunder_i_free(set.item);
+    return ok;
+}
+
+/* Adds tentative clauses: of each set of conflicts that features connect only that of the first one, since its hidden
+ * feature may solve the others. */
+static bool add_tentative(sunder_i_hiding *h, const sunder_i_model *model, const uint32_t *number,
+                          const sunder_report *report, bool *any)
+{
+    sunder_i_list set = {0};
+    uint32_t *parent = sunder_i_alloc(model->things, sizeof *parent);
+    bool *done = sunder_i_calloc(model->things, sizeof *done), ok = parent && done;
+    if (ok) sunder_i_union_init(parent, model->things);
+    for (size_t k = 0; k < report->conflicts && ok; k++) {
+        const sunder_conflict *c = &report->conflict[k];
+        if (counts(c) && !sunder_i_is_barrier(model, (uint32_t)c->b))
+            sunder_i_union_join(parent, (uint32_t)c->a, (uint32_t)c->b);
+    }
+    for (size_t k = 0; k < report->conflicts && ok; k++) {
+        bool proved, added = false;
+        const uint32_t root = sunder_i_union_find(parent, (uint32_t)report->conflict[k].a);
+        if (!counts(&report->conflict[k]) || done[root]) continue;
+        ok = list_things(model, report, k, &proved, &set) && add_clause(h, number, &set, proved, &added);
+        done[root] = ok && added;
+        *any = *any || done[root];
+    }
+    sunder_i_free_all(parent, done, set.item);
+    return ok;
+}
+
+/* A layout is first computed without effort, which finds most clauses; then with the caller's. Tentative clauses are
+ * added only if no other is found. */
+sunder_status sunder_i_hiding_learn(sunder_i_hiding *hiding, const sunder_i_model *model, const uint32_t *number,
+                                    const sunder_report *report, bool *again, sunder_error *err)
+{
+    hiding->rounds++;
+    *again = false;
+    bool ok = add_proved(hiding, model, number, report, again);
+    if (ok && !*again && hiding->thorough) ok = add_tentative(hiding, model, number, report, again);
+    const bool with_effort = !*again && !hiding->thorough;
+    *again = *again || with_effort;
+    hiding->thorough = with_effort || !*again;
+    if (!ok) return sunder_i_failure_cause(err);
+    sunder_i_cover_result result = {.hidden = hiding->hidden};
+    return sunder_i_cover_find(&hiding->clauses, false, hiding->cost, hiding->n, COVER_EFFORT, &result, err);
+}

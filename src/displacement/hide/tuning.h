@@ -1,0 +1,11 @@
+/* These constants decide how often a cheapest choice is found, and never whether a choice or a bound is right. */
+#ifndef SUNDER_I_HIDE_TUNING_H
+#define SUNDER_I_HIDE_TUNING_H
+
+/* The version of the values below. It is raised with each change of a value (tests/house/TUNING). */
+#define SUNDER_I_HIDE_TUNING_VERSION 1
+
+/* The search for the best choice of a component ends after COVER_EFFORT nodes, and one for each of its features. */
+#define COVER_EFFORT 100000u
+
+#endif
