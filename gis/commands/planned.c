@@ -143,7 +143,7 @@ bool gis_planned_rules(const gis_options *options, gis_layer_rules *rules, gis_e
 {
     unsigned chosen;
     const bool points = options->given[OPT_SYMBOL] || options->given[OPT_SYMBOL_FIELD];
-    if (!gis_separate_choose_layers(options->text[OPT_LAYERS], points, rules->core.rows, &chosen, error)) return false;
+    if (!gis_separate_choose_layers(options->text[OPT_LAYERS], rules, points, &chosen, error)) return false;
     rules->core.keep_pushes = (chosen & GIS_SEPARATE_PUSHES) != 0;
     rules->count_thin = true; /* needed if a summary is printed, which is not known before the end */
     return true;

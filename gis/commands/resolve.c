@@ -156,6 +156,25 @@ static bool resolve_ease(const gis_options *options, double *ease, gis_error *er
     return true;
 }
 
+/* What does not work together with hiding is refused. */
+static bool resolve_hiding(const gis_options *options, gis_layer_rules *out, gis_error *error)
+{
+    static const gis_option_id not_with[] = {OPT_PROOF, OPT_MAX_MEMORY};
+    unsigned weighting = GIS_WEIGHTING_SQRT_AREA;
+    out->hide = options->given[OPT_HIDE];
+    out->drop_hidden = options->given[OPT_DROP_HIDDEN];
+    out->hierarchy_field = options->text[OPT_HIERARCHY_FIELD];
+    out->hidden_field = options->text[OPT_HIDDEN_FIELD];
+    for (size_t i = 0; out->hide && i < sizeof not_with / sizeof *not_with; i++)
+        if (options->given[not_with[i]])
+            return gis_fail_usage(error, "--hide: not with %s", gis_option_table[not_with[i]].names);
+    if (options->given[OPT_HIDE_WEIGHT] &&
+        !resolve_choice(options, OPT_HIDE_WEIGHT, weighting_word, &weighting, error))
+        return false;
+    out->hide_weighting = (gis_weighting)weighting;
+    return true;
+}
+
 static bool resolve_rules(const gis_options *options, gis_layer_rules *out, gis_error *error)
 {
     unsigned weighting;
@@ -180,7 +199,8 @@ static bool resolve_rules(const gis_options *options, gis_layer_rules *out, gis_
     out->core.threads = thread_count(options);
     if (!resolve_choice(options, OPT_WEIGHT, weighting_word, &weighting, error)) return false;
     out->weighting = (gis_weighting)weighting;
-    return resolve_rows(options, out, error) && resolve_stiffness(options, out->core.row_stiffness, error) &&
+    return resolve_rows(options, out, error) && resolve_hiding(options, out, error) &&
+           resolve_stiffness(options, out->core.row_stiffness, error) &&
            resolve_ease(options, &out->core.ease, error) && resolve_contained(options, &out->core.contained, error);
 }
 
@@ -248,6 +268,7 @@ void gis_resolve_original(const gis_options *options, const gis_layer_input_requ
     out->output = NULL;
     out->rules.block_field = NULL;
     out->rules.rows_field = rows_field_of(options);
+    out->rules.hidden_field = out->rules.hierarchy_field = NULL;
 }
 
 /* Checks the options of the command check that depend on --before: some apply to moves only, and some select features

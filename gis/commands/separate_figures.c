@@ -4,11 +4,13 @@
 #include "commands/command_stats.h"
 #include "commands/resolve.h"
 #include "commands/separate_run.h"
+#include "sunder_hiding.h"
 #include "read/crs_units.h"
 
 #include <cpl_conv.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 /* Returns the FID of the feature with the longest move; OGRNullFID if no feature moved or it has no FID. */
 static GIntBig longest_fid(const gis_separate_run *run)
@@ -96,6 +98,51 @@ static void json_rows(gis_json *out, const sunder_layer_summary *summary)
     gis_json_close(out, '}');
 }
 
+static int by_class(const void *a, const void *b)
+{
+    const uint32_t p = *(const uint32_t *)a, q = *(const uint32_t *)b;
+    return p < q ? -1 : p > q;
+}
+
+/* The number of hidden features of each class. */
+static void json_by_class(gis_json *out, const gis_separate_run *run)
+{
+    uint32_t *class = malloc((run->input.n + 1) * sizeof *class);
+    size_t n = 0;
+    for (size_t i = 0; class && i < run->input.n; i++)
+        if (sunder_report_status(run->report, i) == SUNDER_FEATURE_HIDDEN)
+            class[n++] = gis_layer_hiding_cost(&run->input, i).hierarchy;
+    if (class) qsort(class, n, sizeof *class, by_class);
+    gis_json_key(out, "by_class");
+    gis_json_open(out, '{');
+    for (size_t k = 0, end; k < n; k = end) {
+        char key[16] = "null";
+        for (end = k; end < n && class[end] == class[k];) end++;
+        if (class[k] != GIS_LAST_CLASS) snprintf(key, sizeof key, "%u", class[k]);
+        gis_json_put_size(out, key, end - k);
+    }
+    gis_json_close(out, '}');
+    free(class);
+}
+
+static void json_hidden(gis_json *out, const gis_separate_run *run)
+{
+    sunder_hiding_summary hiding;
+    sunder_report_hiding(run->report, &hiding);
+    gis_json_key(out, "hidden");
+    gis_json_open(out, '{');
+    gis_json_put_size(out, "count", hiding.hidden);
+    gis_json_put_double(out, "weight", (double)hiding.weight / GIS_HIDING_UNIT);
+    gis_json_put_double(out, "lower_bound", (double)hiding.least / GIS_HIDING_UNIT);
+    gis_json_put_size(out, "forced", hiding.forced);
+    json_by_class(out, run);
+    gis_json_put_size(out, "components", hiding.components);
+    gis_json_put_size(out, "components_proved", hiding.components_best);
+    gis_json_put_size(out, "clauses", hiding.clauses);
+    gis_json_put_size(out, "rounds", hiding.rounds);
+    gis_json_close(out, '}');
+}
+
 void gis_separate_stats(gis_json *out, const gis_separate_run *run)
 {
     const sunder_layer_summary *summary = &run->summary;
@@ -132,6 +179,10 @@ void gis_separate_stats(gis_json *out, const gis_separate_run *run)
     }
     if (run->request.rules.core.ease > 0) {
         json_shortfall(out, summary);
+        gis_json_line(out);
+    }
+    if (run->request.rules.hide) {
+        json_hidden(out, run);
         gis_json_line(out);
     }
     gis_json_put_bool(out, "verified", run->verified);
@@ -208,6 +259,16 @@ static void print_rows(const gis_separate_run *run)
            summary->turn_p95);
 }
 
+static void print_hidden(const gis_separate_run *run)
+{
+    sunder_hiding_summary hiding;
+    if (!run->request.rules.hide) return;
+    sunder_report_hiding(run->report, &hiding);
+    printf("hidden %zu, weight %.6g, at least %.6g is needed; %zu of %zu groups proved\n", hiding.hidden,
+           (double)hiding.weight / GIS_HIDING_UNIT, (double)hiding.least / GIS_HIDING_UNIT, hiding.components_best,
+           hiding.components);
+}
+
 static void print_shortfall(const gis_separate_run *run)
 {
     const sunder_layer_summary *summary = &run->summary;
@@ -238,6 +299,7 @@ bool gis_separate_print(const void *separated, gis_error *error)
            gis_separate_optimality_gap(summary));
     print_rows(run);
     print_shortfall(run);
+    print_hidden(run);
     if (gis_any_conflict(&summary->after) && (run->chosen & GIS_SEPARATE_CONFLICTS))
         printf("the remaining conflicts are listed with their reasons in %s_conflicts\n",
                gis_resolve_sink(run->options, NULL, gis_source_name(run->input.source)).main_layer);

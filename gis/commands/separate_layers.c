@@ -7,19 +7,23 @@
 
 #include <string.h>
 
-bool gis_separate_choose_layers(const char *list, bool points, bool rows, unsigned *chosen, gis_error *error)
+bool gis_separate_choose_layers(const char *list, const gis_layer_rules *rules, bool points, unsigned *chosen,
+                                gis_error *error)
 {
     static const char *const names[GIS_SEPARATE_LAYERS] = {"main",   "displacement", "conflicts",
-                                                           "pushes", "rows",         "symbols"};
+                                                           "pushes", "rows",         "symbols",
+                                                           "hidden"};
     const unsigned apply = GIS_SEPARATE_MAIN | GIS_SEPARATE_DISPLACEMENT | GIS_SEPARATE_CONFLICTS |
-                           GIS_SEPARATE_PUSHES | (rows ? GIS_SEPARATE_ROWS : 0u) | (points ? GIS_SEPARATE_SYMBOLS : 0u);
+                           GIS_SEPARATE_PUSHES | (rules->core.rows ? GIS_SEPARATE_ROWS : 0u) |
+                           (points ? GIS_SEPARATE_SYMBOLS : 0u) | (rules->hide ? GIS_SEPARATE_HIDDEN : 0u);
     *chosen = list ? 0 : apply;
     for (const char *rest = list; rest;) {
         size_t n = strcspn(rest, ","), k = 0;
         while (k < GIS_SEPARATE_LAYERS && (strlen(names[k]) != n || memcmp(names[k], rest, n) != 0)) k++;
         if (k == GIS_SEPARATE_LAYERS)
             return gis_fail_usage(
-                error, "--layers: %.*s is none of main, displacement, conflicts, pushes, rows, symbols", (int)n, rest);
+                error, "--layers: %.*s is none of main, displacement, conflicts, pushes, rows, symbols, hidden", (int)n,
+                rest);
         *chosen |= 1u << k;
         rest = rest[n] ? rest + n + 1 : NULL;
     }
@@ -30,7 +34,7 @@ bool gis_separate_choose_layers(const char *list, bool points, bool rows, unsign
 bool gis_separate_open_sink(gis_separate_run *run, gis_error *error)
 {
     size_t n = 0;
-    if (!gis_separate_choose_layers(run->options->text[OPT_LAYERS], run->input.points, run->request.rules.core.rows,
+    if (!gis_separate_choose_layers(run->options->text[OPT_LAYERS], &run->request.rules, run->input.points,
                                     &run->chosen, error))
         return false;
     if (run->chosen & GIS_SEPARATE_DISPLACEMENT) run->suffixes[n++] = "displacement";
@@ -38,6 +42,7 @@ bool gis_separate_open_sink(gis_separate_run *run, gis_error *error)
     if (run->chosen & GIS_SEPARATE_PUSHES) run->suffixes[n++] = "pushes";
     if (run->chosen & GIS_SEPARATE_ROWS) run->suffixes[n++] = "rows";
     if (run->chosen & GIS_SEPARATE_SYMBOLS) run->suffixes[n++] = "symbols";
+    if (run->chosen & GIS_SEPARATE_HIDDEN) run->suffixes[n++] = "hidden";
     gis_sink_request request = gis_resolve_sink(run->options, run->to.output, gis_source_name(run->input.source));
     request.suffixes = run->suffixes;
     request.features = (run->chosen & GIS_SEPARATE_MAIN) != 0;
@@ -56,7 +61,8 @@ bool gis_separate_write_layers(gis_separate_run *run, gis_error *error)
     const gis_result_layers layers = {
         (run->chosen & GIS_SEPARATE_MAIN) != 0,      (run->chosen & GIS_SEPARATE_DISPLACEMENT) != 0,
         (run->chosen & GIS_SEPARATE_CONFLICTS) != 0, (run->chosen & GIS_SEPARATE_PUSHES) != 0,
-        (run->chosen & GIS_SEPARATE_ROWS) != 0,      (run->chosen & GIS_SEPARATE_SYMBOLS) != 0};
+        (run->chosen & GIS_SEPARATE_ROWS) != 0,      (run->chosen & GIS_SEPARATE_SYMBOLS) != 0,
+        (run->chosen & GIS_SEPARATE_HIDDEN) != 0};
     gis_sink_result written;
     gis_progress_stage(&run->progress, GIS_SEPARATE_DONE, 1);
     const double begin = gis_clock();

@@ -18,7 +18,8 @@ enum {
     GIS_SEPARATE_PUSHES = 8,
     GIS_SEPARATE_ROWS = 16,
     GIS_SEPARATE_SYMBOLS = 32,
-    GIS_SEPARATE_LAYERS = 6
+    GIS_SEPARATE_HIDDEN = 64,
+    GIS_SEPARATE_LAYERS = 7
 };
 
 typedef struct gis_separate_run {
@@ -56,8 +57,10 @@ int gis_separate_end(gis_separate_run *run, bool done, const gis_error *error);
 /* ---- separate_layers.c: the layers ------------------------------------------------------------------------------- */
 
 /* *chosen becomes the layers that `list` (--layers; NULL: all) names and that apply; the layer of symbols applies to
- * points only, and that of rows only if rows are found. An unknown name is a usage error. */
-bool gis_separate_choose_layers(const char *list, bool points, bool rows, unsigned *chosen, gis_error *error);
+ * points only, that of rows only if rows are found, and that of hidden features only with --hide. An unknown name is a
+ * usage error. */
+bool gis_separate_choose_layers(const char *list, const gis_layer_rules *rules, bool points, unsigned *chosen,
+                                gis_error *error);
 /* Opens the output before the computation, so that an output that must be refused is refused at once. */
 bool gis_separate_open_sink(gis_separate_run *run, gis_error *error);
 /* Writes the layers of run->result; only gis_deliver(), which puts the files in place, is left to do. */

@@ -12,11 +12,13 @@
 typedef enum gis_style {
     GIS_STYLE_NONE,
     GIS_STYLE_STATUS,       /* by the values of sunder_st; for polygons or points, by the layer's type */
+    GIS_STYLE_WITH_HIDDEN,  /* the same, with the value hidden */
     GIS_STYLE_DISPLACEMENT, /* arrows */
     GIS_STYLE_CONFLICTS,    /* thick lines */
     GIS_STYLE_WITH_TIGHT,   /* the same, and thin lines for tight pairs */
     GIS_STYLE_PUSHES,       /* lines whose width grows with the force */
     GIS_STYLE_ROWS,         /* lines whose width grows with the kink */
+    GIS_STYLE_HIDDEN,       /* outlines */
     GIS_STYLE_SYMBOLS,      /* polygons around points */
     GIS_STYLE_RESULT        /* sums: polygons, lines or points by the layer's type */
 } gis_style;

@@ -142,20 +142,21 @@ static const struct {
     [SUNDER_FEATURE_FIXED] = {"64,64,64,255", "20,20,20,255"},
     [SUNDER_FEATURE_BLOCKED] = {"215,25,28,255", "120,0,0,255"},
     [SUNDER_FEATURE_SKIPPED] = {"235,235,230,255", "190,190,185,255"},
+    [SUNDER_FEATURE_HIDDEN] = {"255,255,255,0", "170,120,170,255"},
 };
-enum { STATUSES = sizeof statuses / sizeof *statuses };
+enum { STATUSES = SUNDER_FEATURE_HIDDEN }; /* without hiding */
 
-static void add_by_status(gis_text *to, kind of)
+static void add_by_status(gis_text *to, kind of, int n)
 {
     gis_text_print(to,
                    "<renderer-v2 type=\"categorizedSymbol\" attr=\"sunder_st\" forceraster=\"0\" symbollevels=\"0\" "
                    "enableorderby=\"0\">\n<categories>\n");
-    for (int i = 0; i < STATUSES; i++) {
+    for (int i = 0; i < n; i++) {
         const char *word = sunder_feature_status_string((sunder_feature_status)i);
         gis_text_print(to, "<category value=\"%s\" label=\"%s\" symbol=\"%d\" render=\"true\"/>\n", word, word, i);
     }
     gis_text_print(to, "</categories>\n<symbols>\n");
-    for (int i = 0; i < STATUSES; i++) {
+    for (int i = 0; i < n; i++) {
         char name[12];
         snprintf(name, sizeof name, "%d", i);
         add_symbol(to, of, name, statuses[i].colour, statuses[i].outline);
@@ -288,12 +289,14 @@ void gis_style_qml(gis_text *to, gis_style style, OGRwkbGeometryType type)
                        "<qgis version=\"3.22.0\" styleCategories=\"Symbology\">\n");
     switch (style) {
     case GIS_STYLE_NONE: break;
-    case GIS_STYLE_STATUS: add_by_status(to, of); break;
+    case GIS_STYLE_STATUS: add_by_status(to, of, STATUSES); break;
+    case GIS_STYLE_WITH_HIDDEN: add_by_status(to, of, STATUSES + 1); break;
     case GIS_STYLE_DISPLACEMENT: add_arrows(to); break;
     case GIS_STYLE_CONFLICTS: add_conflicts(to, false); break;
     case GIS_STYLE_WITH_TIGHT: add_conflicts(to, true); break;
     case GIS_STYLE_PUSHES: add_pushes(to); break;
     case GIS_STYLE_ROWS: add_rows(to); break;
+    case GIS_STYLE_HIDDEN: add_plain(to, of, "255,255,255,0", "170,120,170,255"); break;
     case GIS_STYLE_SYMBOLS: add_plain(to, of, "166,206,227,255", "31,78,120,255"); break;
     case GIS_STYLE_RESULT:
         if (of == OF_POLYGONS)

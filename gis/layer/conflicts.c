@@ -76,9 +76,8 @@ const char *gis_barrier_layer(const gis_layer_input *input, const gis_barrier_fe
     return input->barriers.layer[barrier->request];
 }
 
-/* The FIDs of n things, separated by commas; barriers as LAYER:FID. Null if n is 0. */
-static bool things_value(const gis_things *things, const size_t *thing, size_t n, char **copy, gis_value *value,
-                         gis_error *error)
+bool gis_things_value(const gis_things *things, const size_t *thing, size_t n, char **copy, gis_value *value,
+                      gis_error *error)
 {
     *value = (gis_value){.kind = GIS_NULL};
     if (n == 0) return true;
@@ -148,9 +147,9 @@ bool gis_things_conflict(const gis_things *things, const sunder_conflict *confli
     values[COLUMN_BY_ROW] = (gis_value){GIS_INTEGER, {.integer = conflict->by_row}};
     return things->id(things->of, conflict->a, &scratch->id[0], &values[COLUMN_ID_A], error) &&
            (barrier || alone || things->id(things->of, conflict->b, &scratch->id[1], &values[COLUMN_ID_B], error)) &&
-           things_value(things, &conflict->need_gone, conflict->need_gone != SIZE_MAX, &scratch->need_gone,
+           gis_things_value(things, &conflict->need_gone, conflict->need_gone != SIZE_MAX, &scratch->need_gone,
                         &values[COLUMN_NEED_GONE], error) &&
-           things_value(things, conflict->blocked_by, conflict->n_blocked_by, &scratch->blocked_by,
+           gis_things_value(things, conflict->blocked_by, conflict->n_blocked_by, &scratch->blocked_by,
                         &values[COLUMN_BLOCKED_BY], error);
 }
 

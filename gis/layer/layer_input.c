@@ -119,7 +119,7 @@ static bool make_layer(gis_layer_input *input, gis_error *error)
         return gis_core_failed(error, "--barrier", &why);
     if (sunder_layer_set_rows(input->layer, input->row, &why) != SUNDER_OK)
         return gis_core_failed(error, "--rows", &why);
-    return set_sides(input, error);
+    return gis_layer_set_hiding(input, error) && set_sides(input, error);
 }
 
 /* Barriers are read within this multiple of the longest limit, since the report also says which longer limit would
@@ -220,6 +220,8 @@ bool gis_layer_begin(const gis_layer_input_request *request, bool packed, gis_la
                              .rows_field = -1,
                              .limit_field = -1,
                              .weight_field = -1,
+                             .hierarchy_field = -1,
+                             .hidden_field = -1,
                              .max_shift = INFINITY,
                              .tolerance = -1,
                              .barrier_reach = INFINITY};
@@ -283,7 +285,8 @@ bool gis_layer_input_read(const gis_layer_input_request *request, gis_layer_inpu
     gis_layer_default_demands(out);
     gis_layer_warn_of_crs(out);
     gis_layer_warn_of_others(out, gis_source_content_count(out->source, GIS_POINTS) > 0);
-    return gis_layer_marks(out, error) && gis_layer_blocks(out, error) && gis_layer_weights(out, error) &&
+    return gis_layer_marks(out, error) && gis_layer_mark_hidden(out, error) && gis_layer_blocks(out, error) &&
+           gis_layer_weights(out, error) &&
            gis_layer_limits(out, error) && gis_layer_rows(out, error) && read_barriers(out, error) &&
            make_layer(out, error);
 }

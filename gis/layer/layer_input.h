@@ -8,6 +8,7 @@
 #include "layer/block_keys.h"
 #include "layer/layer_rules.h"
 #include "read/read_shape.h"
+#include "sunder_hiding.h"
 
 /* What to read, and by which rules. Strings and lists are borrowed until the input is cleared; zeroed members mean "not
  * given". */
@@ -52,7 +53,8 @@ typedef struct gis_layer_input {
     sunder_layer *layer;
     gis_layer_shaping *shaping;
     int64_t *row;            /* [n] the row of each feature by --rows FIELD, -1 for none; NULL: none are given */
-    int id_field, block_field, limit_field, weight_field, rows_field; /* index of each field; -1: not given */
+    int id_field, block_field, limit_field, weight_field, rows_field, hierarchy_field,
+        hidden_field; /* index of each field; -1: not given */
     size_t invalid, null; /* number of features with an invalid geometry; with none, or an empty one */
     size_t other;         /* number of features with another kind of geometry */
 } gis_layer_input;
@@ -101,6 +103,11 @@ bool gis_layer_blocks(gis_layer_input *input, gis_error *error);
 bool gis_layer_weights(gis_layer_input *input, gis_error *error);
 bool gis_layer_limits(gis_layer_input *input, gis_error *error);
 bool gis_layer_rows(gis_layer_input *input, gis_error *error);
+/* What it costs to hide feature i, and the same for all of them. */
+sunder_hiding_cost gis_layer_hiding_cost(const gis_layer_input *input, size_t i);
+/* Has what is hidden in a result ignored, except for features of class 0. */
+bool gis_layer_mark_hidden(gis_layer_input *input, gis_error *error);
+bool gis_layer_set_hiding(gis_layer_input *input, gis_error *error); /* hiding_costs.c: once there is a layer */
 
 /* Numbers blocks in the order of first appearance; they are ranked when all keys are known. */
 bool gis_layer_number_blocks(gis_layer_input *input, gis_block_keys *keys, gis_error *error);

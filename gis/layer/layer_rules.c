@@ -27,6 +27,9 @@ bool gis_layer_fields(gis_layer_input *input, gis_error *error)
            gis_field_find(source, "--block-field", rules->block_field, &input->block_field, error) &&
            gis_field_find(source, "--rows", rules->rows_field, &input->rows_field, error) &&
            gis_field_find_numbers(source, "--max-shift-field", rules->max_shift_field, &input->limit_field, error) &&
+           gis_field_find_numbers(source, "--hierarchy-field", rules->hierarchy_field, &input->hierarchy_field,
+                                  error) &&
+           gis_field_find_numbers(source, "--hidden-field", rules->hidden_field, &input->hidden_field, error) &&
            gis_field_find_numbers(source, "--weight-field", rules->weight_field, &input->weight_field, error);
 }
 

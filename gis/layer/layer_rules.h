@@ -10,6 +10,11 @@ typedef enum gis_weighting { GIS_WEIGHTING_EVEN, GIS_WEIGHTING_AREA, GIS_WEIGHTI
 /* "1", "area" or "sqrt-area"; "" for other values. */
 const char *gis_weighting_string(gis_weighting weighting);
 
+/* Weights of hidden features are whole numbers in the core: thousandths. */
+#define GIS_HIDING_UNIT 1000.
+/* The class of features without a value is less important than any that a field can give. */
+#define GIS_LAST_CLASS UINT32_MAX
+
 /* Strings are borrowed; zeroed members mean "not given". */
 typedef struct gis_layer_rules {
     gis_optional_length gap, least_gap, max_shift, touch_tolerance;
@@ -17,6 +22,10 @@ typedef struct gis_layer_rules {
     const char *ignore_where, *fixed_where; /* SQL */
     const char *block_field, *weight_field, *max_shift_field, *rows_field;
     gis_weighting weighting;
+    bool hide, drop_hidden; /* features may be left out; by the classes in this field, and this weight */
+    const char *hierarchy_field;
+    const char *hidden_field; /* of a result: which features are hidden */
+    gis_weighting hide_weighting;
     bool count_thin; /* if the tolerance is 0: report how many overlaps a tolerance of a hundredth of a metre would
                       * join */
     /* The core's options, as the command line gives them. Those that depend on the layer, such as on its unit, are

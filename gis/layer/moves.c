@@ -161,7 +161,7 @@ bool gis_moves_check(const gis_layer_input_request *request, const gis_layer_inp
                      gis_moves *out, gis_error *error)
 {
     pairing p = {.moves = out, .now = now};
-    *out = (gis_moves){0};
+    *out = (gis_moves){.hidden = now->hidden_field >= 0};
     if (!gis_layer_input_read(request, &out->original, error)) return false;
     size_t room = out->original.n + 1;
     out->matched = calloc(room, sizeof *out->matched);

@@ -20,6 +20,9 @@ bool gis_write_symbols_anew(gis_sink *sink, const gis_layer_input *input, bool m
 /* Writes LAYER_symbols: the symbols of points at their new places. */
 bool gis_write_symbols(gis_sink *sink, const gis_layer_input *input, const sunder_report *report, gis_error *error);
 
+/* Writes LAYER_hidden: the hidden features where they stood, and why each is hidden (hidden_rows.c). */
+bool gis_write_hidden(gis_sink *sink, const gis_layer_input *input, const sunder_report *report, gis_error *error);
+
 /* A feature's FID as a value; null if it has none. */
 gis_value gis_fid_value(const gis_layer_input *input, size_t feature);
 /* The barrier with this number in the core's report; NULL if the number is that of a feature, or SIZE_MAX. */

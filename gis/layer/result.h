@@ -41,6 +41,8 @@ typedef struct gis_result_kind {
     bool (*rows)(const gis_result *result, gis_house_row_visit *visit, void *user, gis_error *error);
     /* Adds the layer of symbols to the sink and writes it. */
     bool (*symbols)(const gis_result *result, gis_sink *sink, gis_error *error);
+    /* Adds the layer of hidden features to the sink and writes it. NULL: nothing can be hidden. */
+    bool (*hidden)(const gis_result *result, gis_sink *sink, gis_error *error);
     /* Writes the file of --proof. Fails as gis_proof_print() does. */
     bool (*proof)(const gis_result *result, const sunder_layer_summary *summary, FILE *to, gis_error *error);
     /* Opens a view for drawing the layer, which must be closed in any case. */
@@ -60,7 +62,7 @@ struct gis_result {
 
 /* Which layers are written. */
 typedef struct gis_result_layers {
-    bool main, displacement, conflicts, pushes, rows, symbols;
+    bool main, displacement, conflicts, pushes, rows, symbols, hidden;
 } gis_result_layers;
 
 /* Writes the chosen layers, one after the other (result_layers.c). */

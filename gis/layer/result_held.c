@@ -113,6 +113,11 @@ static bool write_symbols(const gis_result *r, gis_sink *sink, gis_error *error)
     return gis_write_symbols(sink, r->input, r->of, error);
 }
 
+static bool write_hidden(const gis_result *r, gis_sink *sink, gis_error *error)
+{
+    return gis_write_hidden(sink, r->input, r->of, error);
+}
+
 static bool write_proof(const gis_result *r, const sunder_layer_summary *summary, FILE *to, gis_error *error)
 {
     (void)summary; /* the report contains one */
@@ -125,7 +130,8 @@ static OGRFieldType id_type(const gis_result *r) { return gis_id_type(r->input);
 
 gis_result gis_result_held(const gis_layer_input *input, sunder_report *report)
 {
-    static const gis_result_kind kind = {visit_features, visit_arrows, visit_conflicts,      visit_pushes, visit_rows,
-                                         write_symbols,  write_proof,  gis_result_held_view, longest_fid,  id_type};
+    static const gis_result_kind kind = {visit_features, visit_arrows,         visit_conflicts, visit_pushes,
+                                         visit_rows,     write_symbols,        write_hidden,    write_proof,
+                                         gis_result_held_view, longest_fid,    id_type};
     return (gis_result){&kind, input, report};
 }

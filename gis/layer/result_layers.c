@@ -3,9 +3,15 @@
 
 #include "base/interrupt.h"
 
-static bool write_feature(void *layer, size_t i, const gis_feature_row *row, gis_error *error)
+typedef struct feature_writer {
+    gis_sink_layer *layer;
+    bool drop_hidden;
+} feature_writer;
+
+static bool write_feature(void *user, size_t i, const gis_feature_row *row, gis_error *error)
 {
-    return gis_main_row(layer, i, row, error);
+    const feature_writer *w = user;
+    return (w->drop_hidden && row->status == SUNDER_FEATURE_HIDDEN) || gis_main_row(w->layer, i, row, error);
 }
 
 static bool write_arrow(void *layer, const gis_arrow_row *row, gis_error *error)
@@ -36,10 +42,11 @@ static bool write_push(void *layer, const sunder_push *push, const gis_things *t
 
 static bool write_main(const gis_result *r, bool wanted, gis_sink *sink, gis_error *error)
 {
-    gis_sink_layer *layer = NULL;
+    const gis_layer_rules *rules = &r->input->request->rules;
+    feature_writer w = {NULL, rules->drop_hidden};
     if (!wanted) return r->kind->features(r, true, NULL, NULL, error);
-    return gis_main_begin(sink, &layer, error) &&
-           r->kind->features(r, gis_sink_has_null(layer), write_feature, layer, error);
+    return gis_main_begin(sink, rules->hide, &w.layer, error) &&
+           r->kind->features(r, gis_sink_has_null(w.layer), write_feature, &w, error);
 }
 
 static bool write_displacement(const gis_result *r, gis_sink *sink, gis_error *error)
@@ -86,5 +93,6 @@ bool gis_result_write(const gis_result *result, const gis_result_layers *layers,
            (!layers->conflicts || write_conflicts(result, sink, error)) &&
            (!layers->pushes || write_pushes(result, sink, error)) &&
            (!layers->rows || write_rows(result, sink, error)) &&
-           (!layers->symbols || result->kind->symbols(result, sink, error));
+           (!layers->symbols || result->kind->symbols(result, sink, error)) &&
+           (!layers->hidden || result->kind->hidden(result, sink, error));
 }

@@ -17,19 +17,20 @@ gis_value gis_block_as_value(bool fids_unique, int64_t first, GIntBig fid)
     return fids_unique ? gis_fid_as_value(fid) : (gis_value){GIS_INTEGER, {.integer = first}};
 }
 
-bool gis_main_begin(gis_sink *sink, gis_sink_layer **layer, gis_error *error)
+bool gis_main_begin(gis_sink *sink, bool hide, gis_sink_layer **layer, gis_error *error)
 {
     static const gis_field fields[] = {{"sunder_dx", OFTReal, 0},
                                        {"sunder_dy", OFTReal, 0},
                                        {"sunder_len", OFTReal, 0},
                                        {"sunder_st", OFTString, 7},
-                                       {"sunder_blk", OFTInteger64, 0}};
+                                       {"sunder_blk", OFTInteger64, 0},
+                                       {"sunder_inv", OFTInteger, 0}};
     const gis_sink_layer_request request = {.suffix = "",
                                             .like_source = true,
                                             .as_source = true,
                                             .fields = fields,
-                                            .n_fields = sizeof fields / sizeof *fields,
-                                            .style = GIS_STYLE_STATUS};
+                                            .n_fields = sizeof fields / sizeof *fields - !hide,
+                                            .style = hide ? GIS_STYLE_WITH_HIDDEN : GIS_STYLE_STATUS};
     if (!gis_sink_add(sink, &request, layer, error)) return false;
     if (!gis_sink_has_null(*layer))
         gis_sink_tell_loss(*layer,
@@ -45,6 +46,7 @@ bool gis_main_row(gis_sink_layer *layer, size_t i, const gis_feature_row *row, g
         {GIS_REAL, {.real = hypot(row->dx, row->dy)}},
         {GIS_TEXT, {.text = sunder_feature_status_string(row->status)}},
         row->block,
+        {GIS_INTEGER, {.integer = row->status == SUNDER_FEATURE_HIDDEN}},
     };
     return gis_go_on(error) && gis_sink_write_source(layer, i, row->dx, row->dy, values, error);
 }

@@ -21,7 +21,8 @@ typedef struct gis_feature_row {
     gis_value block;
 } gis_feature_row;
 
-bool gis_main_begin(gis_sink *sink, gis_sink_layer **layer, gis_error *error);
+/* hide: the layer has the column sunder_inv. */
+bool gis_main_begin(gis_sink *sink, bool hide, gis_sink_layer **layer, gis_error *error);
 /* Writes the row of feature i of the sink's source, or of its current batch. */
 bool gis_main_row(gis_sink_layer *layer, size_t i, const gis_feature_row *row, gis_error *error);
 
@@ -85,6 +86,9 @@ bool gis_things_is_barrier(const gis_things *things, size_t thing);
 bool gis_things_conflict(const gis_things *things, const sunder_conflict *conflict, gis_conflict_texts *scratch,
                          gis_value values[N_CONFLICT_COLUMNS], gis_error *error);
 void gis_conflict_texts_clear(gis_conflict_texts *scratch);
+/* The FIDs of n things, separated by commas; barriers as LAYER:FID. Null if n is 0. *copy owns the text. */
+bool gis_things_value(const gis_things *things, const size_t *thing, size_t n, char **copy, gis_value *value,
+                      gis_error *error);
 
 /* The columns of LAYER_pushes; the texts are borrowed from the barriers. */
 enum { N_PUSH_COLUMNS = 7 };

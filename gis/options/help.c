@@ -5,12 +5,13 @@
 #include <stdio.h>
 #include <string.h>
 
-/* SCREEN_WIDTH: lists of names are wrapped before this column, for terminals of 100 columns. HELP_COLUMN: the
+/* SCREEN_WIDTH: lists of names are wrapped before this column. HELP_COLUMN: the
  * description of an option begins there, or after the option if that is longer. */
-enum { SCREEN_WIDTH = 96, HELP_COLUMN = 37 };
+enum { SCREEN_WIDTH = 112, HELP_COLUMN = 37 };
 
 static const char *const group_titles[GIS_N_GROUPS] = {
     [GIS_GROUP_OWN] = "Options [default]:",
+    [GIS_GROUP_ROOM] = "Features without room:",
     [GIS_GROUP_INPUT] = "Which features, as in ogr2ogr:",
     [GIS_GROUP_OUTPUT] = "Output, as in ogr2ogr:",
     [GIS_GROUP_TROUBLE] = "Trouble:",

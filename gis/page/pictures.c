@@ -14,7 +14,8 @@ static const struct {
     sunder_feature_status status;
     const char *after, *before;
 } classes[] = {
-    {SUNDER_FEATURE_SKIPPED, "skipped", "skipped"}, {SUNDER_FEATURE_UNMOVED, "unmoved", "unmoved"},
+    {SUNDER_FEATURE_HIDDEN, "hidden", "unmoved"},   {SUNDER_FEATURE_SKIPPED, "skipped", "skipped"},
+    {SUNDER_FEATURE_UNMOVED, "unmoved", "unmoved"},
     {SUNDER_FEATURE_FIXED, "fixed", "fixed"},       {SUNDER_FEATURE_MOVED, "moved", "stood"},
     {SUNDER_FEATURE_BLOCKED, "blocked", "blocked"},
 };

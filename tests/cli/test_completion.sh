@@ -32,7 +32,7 @@ same "$(offered sunder separate -l a --input-l)" '' 'an option once, in another 
 same "$(offered sunder separate --barrier a --barr)" --barrier 'one that may come again'
 same "$(offered sunder separate --weight '')" '1 area sqrt-area' values
 same "$(offered sunder separate --weight = s)" sqrt-area 'a value after ='
-same "$(offered sunder separate --layers '')" 'conflicts displacement main pushes rows symbols' 'several values'
+same "$(offered sunder separate --layers '')" 'conflicts displacement hidden main pushes rows symbols' 'several values'
 same "$(offered sunder separate --layers main,p)" main,pushes 'the second of several values'
 same "$(offered sunder pair --weight '')" '' 'a value of another command'
 same "$(offered sunder buffer --shape di)" disc: shapes

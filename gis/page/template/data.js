@@ -24,7 +24,7 @@ function numberReader(text) {
 }
 
 // In the order of the digits of `status`.
-const statusNames = ["unmoved", "moved", "fixed", "blocked", "skipped"];
+const statusNames = ["unmoved", "moved", "fixed", "blocked", "skipped", "hidden"];
 
 // A feature f has the rings [ringsOf[f], ringsOf[f + 1]), a ring r the corners [cornersOf[r], cornersOf[r + 1]).
 function readShapes(text, count, step) {

@@ -168,7 +168,7 @@ function makeMap(layer) {
     about.hidden = f < 0;
     if (f < 0) return;
     const length = Math.hypot(layer.move[2 * f], layer.move[2 * f + 1]), status = statusNames[layer.status[f]];
-    const words = { unmoved: "unmoved", moved: "", fixed: "fixed", blocked: "still in conflict", skipped: "left aside" }[status];
+    const words = { unmoved: "unmoved", moved: "", fixed: "fixed", blocked: "still in conflict", skipped: "left aside", hidden: "hidden" }[status];
     const way = length > 0 ? "moved by " + lengthWords(length, layer.unit, layer.step) : "";
     about.textContent = layer.label[f] + " \u00b7 " + [way, words].filter(Boolean).join(", ");
   }

@@ -183,6 +183,7 @@ NOUNS = {
 _QGIS_CHOOSES = "which features is chosen in QGIS: by the layer's filter, its selection, or a layer made before"
 _QGIS_WRITES = "the program writes a GeoPackage of the plug-in's; QGIS writes it where the dialog says"
 _OURS = "set by the plug-in"
+_HIDING = "features are left out in a shell, so far"
 _SHARDS = "a layer in shards is for clusters, which have no dialogs"
 # The commands that no dialog runs, with the reasons.
 LEFT_OUT_COMMANDS = {"plan": _SHARDS, "merge": _SHARDS}
@@ -200,6 +201,8 @@ LEFT_OUT = {
     "--exact": "a layer holds doubles; rationals are for the shell",
     "--allow-conflicts": "what remains is told as a warning, not as a failure",
     "--shard": _SHARDS,
+    "--hide": _HIDING, "--hierarchy-field": _HIDING, "--hide-weight": _HIDING, "--drop-hidden": _HIDING,
+    "--hidden-field": _HIDING,
     "--progress": _OURS, "--max-memory": "layers that memory does not hold are for the shell", "--quiet": _OURS, "--stats": _OURS, "--report": "an output", "--proof": "an output",
     "--trace": "for developers, in a shell", "--log": "an output", "--messages": _OURS, "--help": "the panel beside the dialog",
 }

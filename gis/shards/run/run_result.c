@@ -308,6 +308,6 @@ static OGRFieldType id_type(const gis_result *r) { return ((const gis_shard_run 
 gis_result gis_shard_run_result(gis_shard_run *parts, const gis_layer_input *input)
 {
     static const gis_result_kind kind = {visit_features, visit_arrows, visit_conflicts,    visit_pushes, visit_rows,
-                                         write_symbols,  write_proof,  gis_shard_run_view, longest_fid,  id_type};
+                                         write_symbols,  NULL, write_proof,  gis_shard_run_view, longest_fid,  id_type};
     return (gis_result){&kind, input, parts};
 }
