@@ -62,6 +62,13 @@ static sunder_status only_settle(sunder_i_solver *s, sunder_error *err)
     return SUNDER_OK;
 }
 
+/* Examines the pairs that were given up once more, each time with the bodies that the search has met since. */
+static sunder_status reconsider_pairs(sunder_i_solver *s, sunder_error *err)
+{
+    const sunder_status status = cover_diagonals_for_proofs(s, err);
+    return status ? status : sunder_i_solver_reconsider(s, &s->changed, err);
+}
+
 static sunder_status mark_for_retry(sunder_i_solver *s, sunder_error *err)
 {
     (void)err;
@@ -102,7 +109,8 @@ static sunder_status fit_exactly(sunder_i_solver *s, sunder_error *err)
 
 static const sunder_i_layer_stage seeking[] = {
     {"choose holders", NULL, sunder_i_solver_choose_holders, 1, 0, 0},
-    {"settle", NULL, only_settle, 1, 0, 4. / 7},
+    {"settle", NULL, only_settle, 1, 0, 3. / 7},
+    {"reconsider", NULL, reconsider_pairs, 4, 3. / 7, 4. / 7},
     {"mark for retry", NULL, mark_for_retry, 1, 0, 0},
     {"retry", has_given_up, retry_pairs, 3, 4. / 7, 5. / 7},
     {"improve", sunder_i_solver_is_to_improve, improve_clusters, 3, 5. / 7, 1},

@@ -22,7 +22,7 @@ assert events and all(set(e) <= known for e in events), "unknown keys"
 assert all({"scope", "outcome"} <= set(e) for e in events), "a line without scope or outcome"
 assert {e["scope"] for e in events} == {"layer", "cluster", "group", "pair"}, "a scope is missing"
 stages = {e.get("stage") for e in events}
-assert {"settle", "improve", "ask one by one"} <= stages, stages
+assert {"settle", "reconsider", "improve"} <= stages, stages
 # The steps of the search within a stage appear with their tables, too. The line of a step that is part of another one
 # comes before that one's line.
 tables = {(e.get("table"), e.get("step")) for e in events}

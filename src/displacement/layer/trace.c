@@ -82,6 +82,12 @@ sunder_status sunder_i_trace_log_emit(const sunder_i_model *model, const char *s
     return status;
 }
 
+sunder_status sunder_i_trace_emit(const sunder_i_model *model, const char *scope, const sunder_i_trace_step *step,
+                                  const uint32_t *body, size_t n, sunder_error *err)
+{
+    return sunder_i_is_traced(model) ? emit_steps(model, scope, step, 1, body, n, err) : SUNDER_OK;
+}
+
 void sunder_i_trace_pair(const sunder_i_model *model, const char *step, const char *outcome, uint32_t a, uint32_t b)
 {
     if (!sunder_i_is_traced(model)) return;

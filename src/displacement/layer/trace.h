@@ -36,6 +36,9 @@ double sunder_i_trace_cost(const sunder_i_model *model, const uint32_t *body, si
  * about. */
 sunder_status sunder_i_trace_log_emit(const sunder_i_model *model, const char *scope, sunder_i_trace_log *log,
                                       const uint32_t *body, size_t n, sunder_error *err);
+/* Passes one event about the n bodies to the caller, if there is a trace. */
+sunder_status sunder_i_trace_emit(const sunder_i_model *model, const char *scope, const sunder_i_trace_step *step,
+                                  const uint32_t *body, size_t n, sunder_error *err);
 /* Passes an event about the things a and b to the caller. */
 void sunder_i_trace_pair(const sunder_i_model *model, const char *step, const char *outcome, uint32_t a, uint32_t b);
 /* Returns the present cost of the whole layer; 0 if there is no trace. */

@@ -80,11 +80,28 @@ static void enter_remaining(looking *l)
     }
 }
 
-/* During the search: enters the pairs that were given up. */
-static void enter_given_up(looking *l)
+/* During the search: enters all conflicts that are connected with one that was given up, since a question is about all
+ * of these at once (solve/clusters/reconsider.c), and the clusters of their bodies. Returns false if memory is out. */
+static bool enter_given_up(looking *l)
 {
     const sunder_i_model *model = &l->solver->model;
-    for (size_t k = 0; k < model->given_up_n; k++) enter_pair(l, model->given_up[k].a, model->given_up[k].b);
+    const sunder_i_relations *start = &l->solver->start;
+    if (model->given_up_n == 0) return true;
+    const uint32_t *root = sunder_i_solver_conflict_roots(l->solver);
+    bool *asked = sunder_i_calloc(model->bodies, sizeof *asked);
+    for (size_t k = 0; k < model->given_up_n && root && asked; k++) {
+        const uint32_t i = model->given_up[k].a, j = model->given_up[k].b;
+        asked[root[i]] = asked[root[j]] = true;
+        enter_pair(l, i, j);
+    }
+    for (size_t k = 0; k < start->n && root && asked; k++) {
+        const sunder_i_relation *r = &start->pair[k];
+        const uint32_t i = model->body_of[r->a], j = model->body_of[r->b];
+        if (sunder_i_is_conflict_of_bodies(model, r) && (asked[root[i]] || asked[root[j]])) enter_pair(l, i, j);
+    }
+    const bool ok = root && asked;
+    sunder_i_free(asked);
+    return ok;
 }
 
 /* Marks in l->met the bodies whose features or barrier parts, at their original positions, have boxes within `reach` of
@@ -146,10 +163,8 @@ sunder_status sunder_i_report_cover_diagonals(sunder_i_solver *solver, sunder_er
                  .met = sunder_i_calloc(solver->model.bodies, sizeof *l.met),
                  .gathered = sunder_i_calloc(solver->model.bodies, sizeof *l.gathered)};
     sunder_status status = l.far && l.met && l.gathered ? SUNDER_OK : sunder_i_failure_cause(err);
-    if (!status) {
-        enter_remaining(&l);
-        enter_given_up(&l);
-    }
+    if (!status) enter_remaining(&l);
+    if (!status && !enter_given_up(&l)) status = sunder_i_failure_cause(err);
     if (!status && l.any) status = find_some(&l, &solver->model, err);
     sunder_i_free_all(l.far, l.met, l.gathered);
     return status;

@@ -1,17 +1,17 @@
-/* The table of transitions: for each event, the next state from each state of the aspect that it concerns. */
+/* The table of transitions: for each event, the next state from each state of the aspects that it concerns. */
 #include "displacement/solve/clusters/solver.h"
 
 #include "base/invariant.h"
 
 #include <string.h>
 
-enum { MOST_STATES = 5 };
+enum { MOST_STATES = 5, MOST_CONCERNED = 2 };
 
 /* The event cannot happen in this state. */
 #define NEVER 0xff
 
 typedef struct transition {
-    unsigned char aspect;
+    unsigned char aspect;            /* SUNDER_I_NO_ASPECT: no further one */
     unsigned char next[MOST_STATES]; /* by the state before the event, in the order of the enumeration */
 } transition;
 
@@ -22,33 +22,41 @@ typedef struct transition {
     }
 
 /* clang-format off */
-static const transition table[S(EVENTS)] = {
+static const transition table[S(EVENTS)][MOST_CONCERNED] = {
     /* SEARCH: from UNIMPROVED, DUE, CHEAPEST, IMPROVED, IMPROVED_CHEAPEST */
-    [S(MEETS_CONFLICT)]     = {S(SEARCH), FROM_ANY(DUE)},
-    [S(IS_SOLVED)]          = {S(SEARCH), FROM_ANY(UNIMPROVED)},
-    [S(IS_SOLVED_CHEAPEST)] = {S(SEARCH), FROM_ANY(CHEAPEST)},
-    [S(MOVES)]       = {S(SEARCH), {S(UNIMPROVED),     S(DUE), S(UNIMPROVED),              S(IMPROVED), S(IMPROVED)}},
-    [S(IS_IMPROVED)] = {S(SEARCH), {S(IMPROVED), NEVER,  S(IMPROVED_CHEAPEST), S(IMPROVED), S(IMPROVED_CHEAPEST)}},
-    [S(GOES_HOME)]   = {S(SEARCH), {S(UNIMPROVED),     NEVER,  S(CHEAPEST),          S(UNIMPROVED),     S(CHEAPEST)}},
-    /* SCOPE: from WANTED, LEFT */
-    [S(IS_WANTED)] = {S(SCOPE), FROM_ANY(WANTED)},
-    [S(IS_LEFT)]   = {S(SCOPE), FROM_ANY(LEFT)},
+    [S(MEETS_CONFLICT)]     = {{S(SEARCH), FROM_ANY(DUE)}},
+    [S(IS_SOLVED)]          = {{S(SEARCH), FROM_ANY(UNIMPROVED)}},
+    [S(IS_SOLVED_CHEAPEST)] = {{S(SEARCH), FROM_ANY(CHEAPEST)}},
+    [S(MOVES)]       = {{S(SEARCH), {S(UNIMPROVED),     S(DUE), S(UNIMPROVED),              S(IMPROVED), S(IMPROVED)}}},
+    [S(IS_IMPROVED)] = {{S(SEARCH), {S(IMPROVED), NEVER,  S(IMPROVED_CHEAPEST), S(IMPROVED), S(IMPROVED_CHEAPEST)}}},
+    [S(GOES_HOME)]   = {{S(SEARCH), {S(UNIMPROVED),     NEVER,  S(CHEAPEST),          S(UNIMPROVED),     S(CHEAPEST)}}},
+    /* SCOPE: from WANTED, LEFT. QUESTION: from DOUBTFUL, DOUBTFUL_ASKED, CERTAIN, CERTAIN_ASKED */
+    [S(IS_WANTED)] = {{S(SCOPE), FROM_ANY(WANTED)}},
+    [S(IS_LEFT)]   = {{S(SCOPE), FROM_ANY(LEFT)}},
+    [S(BEGINS_AGAIN_FREED)]   = {{S(SCOPE), FROM_ANY(WANTED)},
+                                 {S(QUESTION), {S(DOUBTFUL), S(DOUBTFUL), S(CERTAIN), S(CERTAIN)}}},
+    [S(BEGINS_AGAIN_LIMITED)] = {{S(SCOPE), FROM_ANY(WANTED)},
+                                 {S(QUESTION), {S(DOUBTFUL), S(DOUBTFUL_ASKED), S(DOUBTFUL), S(DOUBTFUL_ASKED)}}},
+    [S(IS_ASKED_IN_VAIN)] =
+        {{S(QUESTION), {S(DOUBTFUL_ASKED), S(DOUBTFUL_ASKED), S(CERTAIN_ASKED), S(CERTAIN_ASKED)}}},
+    [S(IS_DOUBTED)] = {{S(QUESTION), FROM_ANY(DOUBTFUL)}},
+    [S(IS_CERTAIN)] = {{S(QUESTION), {S(CERTAIN), S(CERTAIN_ASKED), S(CERTAIN), S(CERTAIN_ASKED)}}},
     /* RETRY: from NO_RETRY, TO_RETRY */
-    [S(GIVES_UP)]   = {S(RETRY), FROM_ANY(TO_RETRY)},
-    [S(IS_RETRIED)] = {S(RETRY), FROM_ANY(NO_RETRY)},
+    [S(GIVES_UP)]   = {{S(RETRY), FROM_ANY(TO_RETRY)}},
+    [S(IS_RETRIED)] = {{S(RETRY), FROM_ANY(NO_RETRY)}},
     /* LIMITS: from IN_FORCE, LIFTED, ASIDE */
-    [S(LIMIT_IS_LIFTED)]   = {S(LIMITS), {S(LIFTED), NEVER,       NEVER}},
-    [S(IS_SET_ASIDE)]      = {S(LIMITS), {NEVER,     S(ASIDE),    S(ASIDE)}},
-    [S(LIMIT_IS_RESTORED)] = {S(LIMITS), {NEVER,     S(IN_FORCE), S(IN_FORCE)}},
+    [S(LIMIT_IS_LIFTED)]   = {{S(LIMITS), {S(LIFTED), NEVER,       NEVER}}},
+    [S(IS_SET_ASIDE)]      = {{S(LIMITS), {NEVER,     S(ASIDE),    S(ASIDE)}}},
+    [S(LIMIT_IS_RESTORED)] = {{S(LIMITS), {NEVER,     S(IN_FORCE), S(IN_FORCE)}}},
     /* HOLDING: from NOT_HELD, HELD, HELD_AS_COARSE, LET_GO */
-    [S(IS_HELD)]           = {S(HOLDING), {S(HELD), NEVER,             NEVER,             NEVER}},
-    [S(IS_HELD_AS_COARSE)] = {S(HOLDING), {NEVER,   S(HELD_AS_COARSE), S(HELD_AS_COARSE), NEVER}},
-    [S(IS_LET_GO)]         = {S(HOLDING), {NEVER,   S(LET_GO),         S(LET_GO),         S(LET_GO)}},
-    [S(IS_HELD_AGAIN)]     = {S(HOLDING), {NEVER,   S(HELD),           S(HELD_AS_COARSE), S(HELD)}},
+    [S(IS_HELD)]           = {{S(HOLDING), {S(HELD), NEVER,             NEVER,             NEVER}}},
+    [S(IS_HELD_AS_COARSE)] = {{S(HOLDING), {NEVER,   S(HELD_AS_COARSE), S(HELD_AS_COARSE), NEVER}}},
+    [S(IS_LET_GO)]         = {{S(HOLDING), {NEVER,   S(LET_GO),         S(LET_GO),         S(LET_GO)}}},
+    [S(IS_HELD_AGAIN)]     = {{S(HOLDING), {NEVER,   S(HELD),           S(HELD_AS_COARSE), S(HELD)}}},
     /* Each of these three has two states, and keeps the second. */
-    [S(LACKS_SLACK)]    = {S(SLACK), FROM_ANY(WITH_SLACK)},
-    [S(IS_SHAKEN)]      = {S(SHAKING), FROM_ANY(SHAKEN)},
-    [S(JUMPS_IN_PROOF)] = {S(DIAGONALS), FROM_ANY(WITH_DIAGONALS)},
+    [S(LACKS_SLACK)]    = {{S(SLACK), FROM_ANY(WITH_SLACK)}},
+    [S(IS_SHAKEN)]      = {{S(SHAKING), FROM_ANY(SHAKEN)}},
+    [S(JUMPS_IN_PROOF)] = {{S(DIAGONALS), FROM_ANY(WITH_DIAGONALS)}},
 };
 /* clang-format on */
 
@@ -70,21 +78,25 @@ void sunder_i_body_states_free(sunder_i_body_states *states)
 
 bool sunder_i_body_may(const sunder_i_body_states *states, uint32_t body, sunder_i_body_event_kind event)
 {
-    return table[event].next[states->of[table[event].aspect][body]] != NEVER;
+    for (size_t k = 0; k < MOST_CONCERNED && table[event][k].aspect; k++)
+        if (table[event][k].next[states->of[table[event][k].aspect][body]] == NEVER) return false;
+    return true;
 }
 
 void sunder_i_body_event(sunder_i_body_states *states, uint32_t body, sunder_i_body_event_kind event)
 {
     SUNDER_I_ASSERT(sunder_i_body_may(states, body, event));
-    unsigned char *state = &states->of[table[event].aspect][body];
-    *state = table[event].next[*state];
+    for (size_t k = 0; k < MOST_CONCERNED && table[event][k].aspect; k++) {
+        unsigned char *state = &states->of[table[event][k].aspect][body];
+        *state = table[event][k].next[*state];
+    }
 }
 
 /* ---- The checker ------------------------------------------------------------------------------------------------- */
 
 static const char *check_body(const sunder_i_solver *s, uint32_t b)
 {
-    static const unsigned char states[SUNDER_I_ASPECTS] = {0, 5, 2, 2, 3, 4, 2, 2, 2};
+    static const unsigned char states[SUNDER_I_ASPECTS] = {0, 5, 2, 4, 2, 3, 4, 2, 2, 2};
     const sunder_i_body *body = &s->model.body[b];
     const unsigned char limits = s->states.of[SUNDER_I_LIMITS][b], holding = s->states.of[SUNDER_I_HOLDING][b];
     for (size_t k = SUNDER_I_SEARCH; k < SUNDER_I_ASPECTS; k++)

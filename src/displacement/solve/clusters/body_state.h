@@ -2,7 +2,7 @@
  *
  * A body has one state of each aspect below. Aspects are independent of each other; the states of one aspect exclude
  * each other. States change in one way only: a stage reports an event of a body to sunder_i_body_event(), and the table
- * in body_state.c tells the next state of the aspect that the event concerns. */
+ * in body_state.c tells the next state of each aspect that the event concerns. */
 #ifndef SUNDER_I_BODY_STATE_H
 #define SUNDER_I_BODY_STATE_H
 
@@ -14,6 +14,7 @@ typedef enum sunder_i_aspect {
     SUNDER_I_NO_ASPECT,
     SUNDER_I_SEARCH,    /* how far is the search for its place? */
     SUNDER_I_SCOPE,     /* do the stages of the present pass work on its cluster? */
+    SUNDER_I_QUESTION,  /* is it asked whether its given-up pairs have a solution (reconsider.c)? */
     SUNDER_I_RETRY,     /* are its given-up pairs tried once more (retry_list.c)? */
     SUNDER_I_LIMITS,    /* is its limit in force (lifted_limits.c)? */
     SUNDER_I_HOLDING,   /* is it held as fixed (coarse_bodies.c)? */
@@ -34,6 +35,11 @@ enum {
     /* SUNDER_I_SCOPE */
     SUNDER_I_WANTED = 0, /* stages work on the clusters that contain such a body */
     SUNDER_I_LEFT,       /* it stays as the pass before left it */
+    /* SUNDER_I_QUESTION; whether it was asked is noted at the root of a component of the conflicts at the start */
+    SUNDER_I_DOUBTFUL = 0,   /* its pairs may be asked about */
+    SUNDER_I_DOUBTFUL_ASKED, /* they may be, but were asked about without finding a solution */
+    SUNDER_I_CERTAIN,        /* they are not asked about, unless a doubtful body is in the cluster */
+    SUNDER_I_CERTAIN_ASKED,  /* the same, and they were asked about before without finding a solution */
     /* SUNDER_I_RETRY */
     SUNDER_I_NO_RETRY = 0,
     SUNDER_I_TO_RETRY, /* a pair of it was given up, and is tried once more */
@@ -66,11 +72,16 @@ typedef enum sunder_i_body_event_kind {
     SUNDER_I_IS_IMPROVED, /* better sides were looked for */
     SUNDER_I_GOES_HOME,   /* it goes back to its original place, and forgets what was found */
     /* passes */
-    SUNDER_I_IS_WANTED, /* the present pass works on it from now on */
-    SUNDER_I_IS_LEFT,   /* the next pass leaves it as it is */
+    SUNDER_I_IS_WANTED,            /* the present pass works on it from now on */
+    SUNDER_I_IS_LEFT,              /* the next pass leaves it as it is */
+    SUNDER_I_BEGINS_AGAIN_FREED,   /* it begins again, since a held body was let go */
+    SUNDER_I_BEGINS_AGAIN_LIMITED, /* it begins again within limits */
     /* given-up pairs */
     SUNDER_I_GIVES_UP, /* or may try once more what it gave up in an earlier pass */
     SUNDER_I_IS_RETRIED,
+    SUNDER_I_IS_ASKED_IN_VAIN,
+    SUNDER_I_IS_DOUBTED, /* a limit is in force in its cluster: more can be proved */
+    SUNDER_I_IS_CERTAIN, /* none is */
     /* limits */
     SUNDER_I_LIMIT_IS_LIFTED,
     SUNDER_I_IS_SET_ASIDE,

@@ -131,6 +131,12 @@ void sunder_i_sort_given_up(sunder_i_model *model);
 /* Moves the relaxations that the clusters made to the model, and drops those of the model that the clusters ended. */
 sunder_status sunder_i_solver_take_relaxations(sunder_i_solver *solver, sunder_error *err);
 
+/* ---- reconsider.c ------------------------------------------------------------------------------------------------ */
+
+/* Asks, for each component of conflicts with a given-up pair, whether all its pairs have a joint solution. If one is
+ * found the bodies move there: *changed, and clusters have to be settled. */
+sunder_status sunder_i_solver_reconsider(sunder_i_solver *solver, bool *changed, sunder_error *err);
+
 /* ---- one_by_one.c ------------------------------------------------------------------------------------------------ */
 
 /* Asks, for single given-up pairs, whether each has a solution while the other conflicts remain as they are. If one is

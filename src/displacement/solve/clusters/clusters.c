@@ -31,7 +31,7 @@ void sunder_i_solver_free(sunder_i_solver *solver)
     sunder_i_placement_free(&solver->model, &solver->placement);
     sunder_i_model_free(&solver->model);
     sunder_i_free_all(solver->start.pair, solver->depth, solver->depth_at, solver->now.pair, solver->entry,
-                      solver->edge, solver->parent);
+                      solver->edge, solver->conflict_root, solver->parent);
     sunder_i_body_states_free(&solver->states);
     sunder_i_free(solver->widened);
     sunder_i_changes_free(&solver->changes);
@@ -61,6 +61,25 @@ sunder_status sunder_i_solver_init(sunder_i_solver *solver, sunder_error *err)
     sunder_i_union_init(solver->parent, n);
     for (size_t b = 0; b < n; b++) solver->carrier[b] = SUNDER_I_NOBODY;
     return SUNDER_OK;
+}
+
+/* ---- Conflicts and edges ----------------------------------------------------------------------------------------- */
+
+const uint32_t *sunder_i_solver_conflict_roots(sunder_i_solver *solver)
+{
+    const sunder_i_model *model = &solver->model;
+    if (solver->conflict_root) return solver->conflict_root;
+    uint32_t *root = solver->conflict_root = sunder_i_alloc(model->bodies, sizeof *root);
+    if (!root) return NULL;
+    sunder_i_union_init(root, model->bodies);
+    for (size_t k = 0; k < solver->start.n; k++) {
+        const sunder_i_relation *r = &solver->start.pair[k];
+        const uint32_t i = model->body_of[r->a], j = model->body_of[r->b];
+        if (!sunder_i_is_conflict_of_bodies(model, r) || model->body[i].fixed || model->body[j].fixed) continue;
+        sunder_i_union_join(root, i, j);
+    }
+    for (size_t b = 0; b < model->bodies; b++) root[b] = sunder_i_union_find(root, (uint32_t)b);
+    return root;
 }
 
 /* ---- Clusters ---------------------------------------------------------------------------------------------------- */

@@ -214,7 +214,7 @@ sunder_status sunder_i_solver_let_go(sunder_i_solver *solver, sunder_error *err)
         sunder_i_body *body = &model->body[b];
         if (was_let_go(solver, b)) body->held = body->fixed = false;
         back[b] = !body->fixed && root[sunder_i_union_find(solver->parent, b)];
-        sunder_i_body_event(&solver->states, b, back[b] ? SUNDER_I_IS_WANTED : SUNDER_I_IS_LEFT);
+        sunder_i_body_event(&solver->states, b, back[b] ? SUNDER_I_BEGINS_AGAIN_FREED : SUNDER_I_IS_LEFT);
     }
     if (!status && !keep_infeasible(solver)) status = sunder_i_failure_cause(err);
     if (!status) status = sunder_i_solver_begin_again(solver, back, err);

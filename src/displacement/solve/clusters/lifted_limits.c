@@ -22,30 +22,12 @@
 
 /* ---- Without limits ---------------------------------------------------------------------------------------------- */
 
-/* Returns an array [bodies]: the root of each body's component of conflicts at the start. A fixed body joins no
- * components. The caller frees it. NULL if memory is out. */
-static uint32_t *find_conflict_roots(const sunder_i_solver *s)
-{
-    const sunder_i_model *model = &s->model;
-    uint32_t *root = sunder_i_alloc(model->bodies, sizeof *root);
-    if (!root) return NULL;
-    sunder_i_union_init(root, model->bodies);
-    for (size_t k = 0; k < s->start.n; k++) {
-        const sunder_i_relation *r = &s->start.pair[k];
-        const uint32_t i = model->body_of[r->a], j = model->body_of[r->b];
-        if (!sunder_i_is_conflict_of_bodies(model, r) || model->body[i].fixed || model->body[j].fixed) continue;
-        sunder_i_union_join(root, i, j);
-    }
-    for (size_t b = 0; b < model->bodies; b++) root[b] = sunder_i_union_find(root, (uint32_t)b);
-    return root;
-}
-
 /* Sets aside all bodies that are connected, by conflicts at the start, with a pair that limits keep from being
  * resolved. Relaxations are put into s->waiting until limits are in force again. False if memory is out. */
 static bool set_infeasible_aside(sunder_i_solver *s)
 {
     sunder_i_model *model = &s->model;
-    uint32_t *root = find_conflict_roots(s);
+    const uint32_t *root = sunder_i_solver_conflict_roots(s);
     bool *hard = sunder_i_calloc(model->bodies, sizeof *hard);
     const bool ok = root && hard;
     s->waiting = model->relaxations;
@@ -60,7 +42,7 @@ static bool set_infeasible_aside(sunder_i_solver *s)
         for (uint32_t b = 0; b < model->bodies; b++)
             if (!model->body[b].fixed && hard[root[b]]) sunder_i_body_event(&s->states, b, SUNDER_I_IS_SET_ASIDE);
     }
-    sunder_i_free_all(root, hard);
+    sunder_i_free(hard);
     return ok;
 }
 
@@ -247,19 +229,21 @@ static bool forget_bodies(sunder_i_solver *s, const bool *back)
 
 static bool is_limited(const sunder_i_solver *s, uint32_t body) { return s->model.body[body].limit < INFINITY; }
 
-/* Forgets which pairs were asked about in clusters with a limited body: more can be proved within limits, and a pair
- * that had a solution without limits may have none within them. */
-static bool ask_limited_clusters_again(sunder_i_solver *s)
+/* Marks the bodies whose given-up pairs may be asked about again: those in clusters with a limited body, since more can
+ * be proved within limits, and a pair that had a solution without limits may have none within them. */
+static bool doubt_limited_clusters(sunder_i_solver *s)
 {
-    const sunder_i_model *model = &s->model;
+    sunder_i_model *model = &s->model;
     size_t out = 0;
-    bool *limited = sunder_i_solver_connected_with(s, is_limited);
-    if (!limited) return false;
+    bool *doubtful = sunder_i_solver_connected_with(s, is_limited);
+    if (!doubtful) return false;
+    for (uint32_t b = 0; b < model->bodies; b++)
+        sunder_i_body_event(&s->states, b, doubtful[b] ? SUNDER_I_IS_DOUBTED : SUNDER_I_IS_CERTAIN);
     for (size_t k = 0; k < s->asked_n; k++)
-        if (!limited[model->body_of[s->asked[k].a]] && !limited[model->body_of[s->asked[k].b]])
+        if (!doubtful[model->body_of[s->asked[k].a]] && !doubtful[model->body_of[s->asked[k].b]])
             s->asked[out++] = s->asked[k];
     s->asked_n = out;
-    sunder_i_free(limited);
+    sunder_i_free(doubtful);
     return true;
 }
 
@@ -283,12 +267,12 @@ sunder_status sunder_i_solver_restore_limits(sunder_i_solver *solver, sunder_err
         if (!sunder_i_is_aside(solver, b))
             memcpy(model->lifted + 2 * (size_t)b, model->move + 2 * (size_t)b, 2 * sizeof *model->move);
     for (size_t b = 0; b < model->bodies; b++) model->body[b].limit = solver->limit[b];
-    if (!status && !ask_limited_clusters_again(solver)) status = sunder_i_failure_cause(err);
+    if (!status && !doubt_limited_clusters(solver)) status = sunder_i_failure_cause(err);
     if (!status) {
         find_offenders(solver, root);
         for (uint32_t b = 0; b < model->bodies; b++) {
             back[b] = !model->body[b].fixed && root[sunder_i_union_find(solver->parent, b)];
-            sunder_i_body_event(&solver->states, b, back[b] ? SUNDER_I_IS_WANTED : SUNDER_I_IS_LEFT);
+            sunder_i_body_event(&solver->states, b, back[b] ? SUNDER_I_BEGINS_AGAIN_LIMITED : SUNDER_I_IS_LEFT);
             sunder_i_body_event(&solver->states, b, SUNDER_I_LIMIT_IS_RESTORED);
         }
         status = sunder_i_solver_begin_again(solver, back, err);

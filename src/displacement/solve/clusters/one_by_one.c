@@ -1,12 +1,13 @@
 /* Has a single given-up pair a solution, if the others stay given up?
  *
- * A cluster gives up pairs until the search finds a solution for the rest. This stage asks: can one pair be resolved
- * together with all pairs that are not in conflict now, while the other present conflicts stand no worse
- * (prove/proofs/feasibility.c)? It is the question that the report asks (report/no_room.c), so a pair with a solution
- * is not reported as unresolved. The search continues from a solution, one in each cluster at a time. If it succeeds
- * the pair is no longer given up; otherwise all bodies return. A solution without spare room, which the margins of the
- * search exclude, is aligned to the last bit (prove/optimum/tight_place.c) and checked exactly, like all moves. No pair
- * is asked about twice; and in a crowd where questions get no answer fewer and fewer are asked. */
+ * A cluster gives up pairs until the search finds a solution for the rest, and reconsider.c asks whether all of them
+ * have one. This stage asks a question in between: can one pair be resolved together with all pairs that are not in
+ * conflict now, while the other present conflicts stand no worse (prove/proofs/feasibility.c)? It is the question that
+ * the report asks (report/no_room.c), so a pair with a solution is not reported as unresolved. The search continues
+ * from a solution, one in each cluster at a time. If it succeeds the pair is no longer given up; otherwise all bodies
+ * return. A solution without spare room, which the margins of the search exclude, is aligned to the last bit
+ * (prove/optimum/tight_place.c) and checked exactly, like all moves. No pair is asked about twice; and in a crowd where
+ * questions get no answer fewer and fewer are asked. */
 #include "displacement/layer/resolution.h"
 #include "displacement/prove/optimum/optimum.h"
 #include "displacement/prove/proofs/feasibility.h"

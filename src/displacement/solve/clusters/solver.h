@@ -58,6 +58,7 @@ typedef struct sunder_i_solver {
     size_t entries, entry_capacity;
     sunder_i_id_pair *edge; /* [edges] pairs of bodies that are solved together */
     size_t edges, edge_capacity;
+    uint32_t *conflict_root;     /* see sunder_i_solver_conflict_roots() */
     uint32_t *parent;            /* [bodies] union-find over the edges between movable bodies */
     sunder_i_body_states states; /* [bodies] */
     bool *to_ease;               /* [bodies] the body's cluster is to be eased (ease.c); NULL: not begun */
@@ -132,6 +133,10 @@ static inline bool sunder_i_is_wanted(const sunder_i_solver *s, uint32_t b)
 {
     return sunder_i_is_in(s, SUNDER_I_SCOPE, b, SUNDER_I_WANTED);
 }
+static inline bool sunder_i_is_doubtful(const sunder_i_solver *s, uint32_t b)
+{
+    return s->states.of[SUNDER_I_QUESTION][b] <= SUNDER_I_DOUBTFUL_ASKED;
+}
 static inline bool sunder_i_is_to_retry(const sunder_i_solver *s, uint32_t b)
 {
     return sunder_i_is_in(s, SUNDER_I_RETRY, b, SUNDER_I_TO_RETRY);
@@ -147,6 +152,9 @@ void sunder_i_solver_free(sunder_i_solver *solver);
 
 /* ---- clusters.c: edges and clusters ------------------------------------------------------------------------------ */
 
+/* [bodies] The root of each body's component of conflicts at the start; lent. A fixed body joins no components. NULL if
+ * memory is out. The first call computes it, so only one thread at a time may call. */
+const uint32_t *sunder_i_solver_conflict_roots(sunder_i_solver *solver);
 /* Adds the edge (i, j). False if memory is out. */
 bool sunder_i_solver_add_edge(sunder_i_solver *solver, uint32_t i, uint32_t j);
 /* Was the body a member of the cluster with this root when clusters were last gathered? */

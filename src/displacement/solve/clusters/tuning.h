@@ -6,7 +6,7 @@
 
 /* SUNDER_I_CLUSTERS_TUNING_VERSION is the version of the values below. It is raised with each change of a value, so
  * that a record can name the values by their version (tests/house/TUNING). */
-#define SUNDER_I_CLUSTERS_TUNING_VERSION 11
+#define SUNDER_I_CLUSTERS_TUNING_VERSION 10
 
 /* ---- Rounds (settle.c, clusters.c) ------------------------------------------------------------------------------- */
 
@@ -57,9 +57,11 @@
 /* Clusters that cost more than within their limits become one cluster as long as it has at most MOST_LIFTED bodies. */
 #define MOST_LIFTED 128
 
-/* ---- Is there a solution after all? (one_by_one.c) --------------------------------------------------------------- */
+/* ---- Is there a solution after all? (reconsider.c, one_by_one.c) ------------------------------------------------- */
 
-/* No solution was ever found among more than MOST_BODIES bodies. */
+/* The search for a solution of n bodies takes at most the effort EFFORT for each. No solution was ever found among more
+ * than MOST_BODIES bodies; such pairs are examined one by one. */
+#define EFFORT 100000u
 #define MOST_BODIES 64
 
 /* One question about one pair, while the others stay in conflict (one_by_one.c), takes at most the effort EFFORT_ALONE:

@@ -19,7 +19,7 @@ enum { BODIES = 3, EVENTS_DRAWN = 20000 };
 /* The same states, as independent facts. */
 typedef struct facts {
     bool due, improved, cheapest; /* the search */
-    bool wanted;                  /* the pass */
+    bool wanted, doubtful, asked; /* the pass, and questions */
     bool to_retry, lifted, aside;
     bool held, coarse, let_go;
     bool no_slack, shaken, diagonals;
@@ -57,8 +57,13 @@ static void facts_of_search(facts *f, sunder_i_body_event_kind event)
 
 static void facts_of_pass(facts *f, sunder_i_body_event_kind event)
 {
-    if (event == SUNDER_I_IS_WANTED) f->wanted = true;
+    if (event == SUNDER_I_IS_WANTED || event == SUNDER_I_BEGINS_AGAIN_FREED || event == SUNDER_I_BEGINS_AGAIN_LIMITED)
+        f->wanted = true;
     if (event == SUNDER_I_IS_LEFT) f->wanted = false;
+    if (event == SUNDER_I_IS_DOUBTED || event == SUNDER_I_BEGINS_AGAIN_LIMITED) f->doubtful = true;
+    if (event == SUNDER_I_IS_CERTAIN) f->doubtful = false;
+    if (event == SUNDER_I_IS_ASKED_IN_VAIN) f->asked = true;
+    if (event == SUNDER_I_IS_DOUBTED || event == SUNDER_I_BEGINS_AGAIN_FREED) f->asked = false;
     if (event == SUNDER_I_GIVES_UP) f->to_retry = true;
     if (event == SUNDER_I_IS_RETRIED) f->to_retry = false;
 }
@@ -89,6 +94,10 @@ static void expect_states(const sunder_i_solver *s, uint32_t b, const facts *f)
     assert_int_equal(sunder_i_is_improved(s, b), f->improved);
     assert_int_equal(sunder_i_is_cheapest(s, b), f->cheapest);
     assert_int_equal(sunder_i_is_wanted(s, b), f->wanted);
+    assert_int_equal(sunder_i_is_doubtful(s, b), f->doubtful);
+    assert_int_equal(sunder_i_is_in(s, SUNDER_I_QUESTION, b, SUNDER_I_DOUBTFUL_ASKED) ||
+                         sunder_i_is_in(s, SUNDER_I_QUESTION, b, SUNDER_I_CERTAIN_ASKED),
+                     f->asked);
     assert_int_equal(sunder_i_is_to_retry(s, b), f->to_retry);
     assert_int_equal(sunder_i_is_in(s, SUNDER_I_LIMITS, b, SUNDER_I_IN_FORCE), !f->lifted);
     assert_int_equal(sunder_i_is_aside(s, b), f->aside);
@@ -109,7 +118,7 @@ static void check_events(void **state)
     facts f[BODIES] = {{0}};
     printf("seed %llu\n", (unsigned long long)test_seed());
     assert_true(sunder_i_body_states_init(&s.states, BODIES));
-    for (uint32_t b = 0; b < BODIES; b++) f[b].wanted = true;
+    for (uint32_t b = 0; b < BODIES; b++) f[b].wanted = f[b].doubtful = true;
     size_t refused = 0;
     for (int k = 0; k < EVENTS_DRAWN; k++) {
         const uint32_t b = (uint32_t)rng_int(&r, 0, BODIES - 1);
