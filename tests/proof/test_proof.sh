@@ -426,7 +426,8 @@ END
 cp roads.jsonl first.jsonl
 proved roads "$town" --gap 3 --max-shift 10 --barrier "$roads"
 cmp roads.jsonl first.jsonl || fail "another proof"
-"$SUNDER" separate "$town" o.gpkg --overwrite -q -l buildings --gap 3 --max-shift 10 --barrier "$roads" --threads 3 --proof three.jsonl
+"$SUNDER" separate "$town" o.gpkg --overwrite -q -l buildings --gap 3 --max-shift 10 --rows no --ease no \
+    --barrier "$roads" --threads 3 --proof three.jsonl
 cmp roads.jsonl three.jsonl || fail "another proof on three threads"
 refused 2 'goes to a file' separate "$town" p.gpkg -l buildings --gap 3 --proof -
 refused 2 'that is an input' separate "$town" p.gpkg -l buildings --gap 3 --proof "$town"
