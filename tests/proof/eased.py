@@ -138,9 +138,9 @@ class Sloped:
         """A line that cuts these places, corners of a part with that middle, just inside the piece: across the way to the corner that is
         farthest outside. None: it would hardly cut them. It only has to be near, as any line may cut the part."""
         far, (nx, ny), p = max(((*self.outside(p), p) for p in places))
-        if not far > 0:
-            return None
         slope = math.hypot(nx, ny)
+        if not (far > 0 and slope > 0):  # where the slope of the plane is that of the distance, no way leads inside
+            return None
         nx, ny = nx / slope, ny / slope
         deep = nx * float(p[0] - middle[0]) + ny * float(p[1] - middle[1]) - far / slope  # from the middle to the line
         a, b = round(-nx * 2 ** 40), round(-ny * 2 ** 40)

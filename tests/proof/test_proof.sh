@@ -61,6 +61,8 @@ strange() {
 not_asked() {
     local words=$1 name=$2 source=$3
     shift 3
+    least_moves "$@"
+    set -- "${asked[@]}"
     "$python" "$here/check_proof.py" "$name.jsonl" "$source" --layer buildings "$@" >said 2>&1
     [ $? = 2 ] && [[ $(<said) == "not asked about: "*"$words"* ]] || fail "$name for $source $*: $(cat said)"
 }
@@ -462,7 +464,7 @@ else
     neuss=$data/neuss_2026.gpkg
     for effort in 0 1; do
         "$SUNDER" separate "$neuss" o.gpkg --overwrite -q --input-layer buildings --output-layer main --layers main,conflicts --gap 3 \
-            --bbox 337737,5674438,337877,5674572 --barrier "$neuss,layer=roads,width=5" --max-shift 10 --effort $effort 2>err
+            --rows no --ease no --bbox 337737,5674438,337877,5674572 --barrier "$neuss,layer=roads,width=5" --max-shift 10 --effort $effort 2>err
         ogrinfo -q o.gpkg -sql "SELECT COUNT(*) AS n FROM main_conflicts WHERE reason = 'unresolved' AND fid_a = 345 AND barr_fid = 353" |
             grep -q "n (Integer) = $((1 - effort))" ||
             fail "beside Neuss's roads at effort $effort"

@@ -196,6 +196,15 @@ sunder_status sunder_i_model_unite(sunder_i_model *model, const uint32_t *body, 
     return sunder_i_parallel(model->rules.threads, n, SUNDER_I_GRAIN_SHAPES, unite_some, &u, err);
 }
 
+void sunder_i_body_home_box(const sunder_i_model *model, const sunder_i_body *body, double box[4])
+{
+    sunder_i_box_clear(box);
+    for (uint32_t m = 0; m < body->members; m++) {
+        const uint32_t f = model->member[body->member + m];
+        if (model->present[f]) sunder_i_box_join(box, sunder_i_home_box(model, f));
+    }
+}
+
 /* The sum of the members' weights, less the greatest possible rounding error of the sum. */
 double sunder_i_weight_below(const sunder_i_model *model, const sunder_i_body *body)
 {

@@ -125,7 +125,10 @@ static inline bool sunder_i_may_move(const sunder_i_body *body) { return !body->
 /* Returns the longest move that the body may make; 0 if it is fixed. */
 static inline double sunder_i_limit_of(const sunder_i_body *body) { return body->fixed ? 0 : body->limit; }
 
-/* Sets box to the box of the body at its original position plus t, grown by `reach`. */
+/* Sets box to the box of the body's members at their original positions; box[0] > box[2] if none is present. */
+void sunder_i_body_home_box(const sunder_i_model *model, const sunder_i_body *body, double box[4]);
+
+/* Sets box to the box of the body at its original position plus t, grown by `reach`. Its own box has to be known. */
 static inline void sunder_i_body_box(const sunder_i_body *body, const double t[2], double reach, double box[4])
 {
     for (size_t c = 0; c < 4; c++) box[c] = body->box[c] + body->origin[c & 1] + t[c & 1] + (c < 2 ? -reach : reach);

@@ -155,17 +155,18 @@ static bool list_rows(const row_search *s, sunder_i_rows *rows)
 /* Sets s->about to the surroundings of each body: its box grown by ROW_REACH gaps, and the bodies that are so near. */
 static bool find_surroundings(row_search *s)
 {
-    const double home[2] = {0, 0};
-    const sunder_i_body *body = s->model->body;
+    double box[4];
     s->about = sunder_i_alloc(s->model->bodies, sizeof *s->about);
-    for (size_t b = 0; b < s->model->bodies && s->about; b++)
-        sunder_i_body_box(&body[b], home, ROW_REACH * s->model->rules.full_gap, s->about[b]);
+    for (uint32_t b = 0; b < s->model->bodies && s->about; b++) {
+        sunder_i_body_home_box(s->model, &s->model->body[b], box);
+        sunder_i_box_grow(box, ROW_REACH * s->model->rules.full_gap, s->about[b]);
+    }
     for (size_t k = 0; k < s->pairs.n && s->about; k++) {
-        double box[4];
-        sunder_i_body_box(&body[s->pairs.pair[k].j], home, 0, box);
-        sunder_i_box_join(s->about[s->pairs.pair[k].i], box);
-        sunder_i_body_box(&body[s->pairs.pair[k].i], home, 0, box);
-        sunder_i_box_join(s->about[s->pairs.pair[k].j], box);
+        const uint32_t i = s->pairs.pair[k].i, j = s->pairs.pair[k].j;
+        sunder_i_body_home_box(s->model, &s->model->body[j], box);
+        sunder_i_box_join(s->about[i], box);
+        sunder_i_body_home_box(s->model, &s->model->body[i], box);
+        sunder_i_box_join(s->about[j], box);
     }
     return s->about != NULL;
 }

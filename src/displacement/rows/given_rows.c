@@ -111,14 +111,13 @@ static sunder_status join_within_reach(joining *s, sunder_error *err)
 /* The greatest extent of the bodies in rows: of one of them, and of all. */
 static void measure_extents(const joining *s, double *one, double *all)
 {
-    const double home[2] = {0, 0};
     double whole[4];
     sunder_i_box_clear(whole);
     *one = 0;
     for (size_t b = 0; b < s->model->bodies; b++) {
         double box[4];
         if (s->among.row[b] < 0) continue;
-        sunder_i_body_box(&s->model->body[b], home, 0, box);
+        sunder_i_body_home_box(s->model, &s->model->body[b], box);
         sunder_i_box_join(whole, box);
         *one = sunder_i_max(*one, sunder_i_max(box[2] - box[0], box[3] - box[1]));
     }
@@ -193,13 +192,12 @@ static int by_bodies_of_edges(const void *x, const void *y)
 static bool find_reach(joining *s, sunder_i_rows *rows, double (*whole)[4])
 {
     const sunder_i_model *model = s->model;
-    const double home[2] = {0, 0};
     if (!model->read) return true;
     rows->reach = sunder_i_alloc(model->bodies, sizeof *rows->reach);
     if (!rows->reach || !whole) return false;
     for (uint32_t b = 0; b < model->bodies; b++) sunder_i_box_clear(whole[b]);
     for (uint32_t b = 0; b < model->bodies; b++) {
-        sunder_i_body_box(&model->body[b], home, 0, rows->reach[b]);
+        sunder_i_body_home_box(model, &model->body[b], rows->reach[b]);
         sunder_i_box_join(whole[sunder_i_union_find(s->among.path, b)], rows->reach[b]);
     }
     for (uint32_t b = 0; b < model->bodies; b++)

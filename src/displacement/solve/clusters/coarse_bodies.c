@@ -26,16 +26,6 @@
 #include <limits.h>
 #include <math.h>
 
-/* The box of the body at the start; box[0] > box[2] if none of its members is present. */
-static void home_box(const sunder_i_model *model, const sunder_i_body *b, double box[4])
-{
-    sunder_i_box_clear(box);
-    for (uint32_t m = 0; m < b->members; m++) {
-        const uint32_t f = model->member[b->member + m];
-        if (model->present[f]) sunder_i_box_join(box, sunder_i_home_box(model, f));
-    }
-}
-
 /* The exponent of the last place of the largest of the four coordinates. */
 static int last_place(const double box[4])
 {
@@ -85,8 +75,8 @@ static void hold_beside(sunder_i_solver *solver, uint32_t b, uint32_t neighbour)
     const sunder_i_body *other = &solver->model.body[neighbour];
     double box[4], beside[4];
     if ((body->fixed && !body->held) || (other->fixed && !other->held)) return;
-    home_box(&solver->model, body, box);
-    home_box(&solver->model, other, beside);
+    sunder_i_body_home_box(&solver->model, body, box);
+    sunder_i_body_home_box(&solver->model, other, beside);
     const int coarser = last_place(box) - last_place(beside);
     const double stretch = stretch_of(solver, beside);
     const bool coarse = coarser >= COARSE_BITS && ldexp(COARSE_PLACES, last_place(box)) > stretch,
@@ -117,7 +107,7 @@ static bool may_hold(const sunder_i_model *model)
     int finest = INT_MAX, coarsest = INT_MIN;
     for (size_t b = 0; b < model->bodies; b++) {
         double box[4];
-        home_box(model, &model->body[b], box);
+        sunder_i_body_home_box(model, &model->body[b], box);
         if (model->body[b].fixed || box[0] > box[2]) continue;
         const int place = last_place(box);
         finest = place < finest ? place : finest;
