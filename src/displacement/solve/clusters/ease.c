@@ -15,23 +15,6 @@
 
 #include <string.h>
 
-/* Relaxes the pairs that are in conflict without a relaxation: those of two bodies that were both pinned when they were
- * put back (uphold.c). Otherwise their clusters would begin with a clash. */
-static sunder_status relax_open_pairs(sunder_i_solver *s, sunder_error *err)
-{
-    sunder_i_model *model = &s->model;
-    bool ok = true;
-    for (size_t k = 0; k < s->now.n && ok; k++) {
-        const sunder_i_relation *r = &s->now.pair[k];
-        const uint32_t pair[2] = {model->body_of[r->a], model->body_of[r->b]};
-        if (!sunder_i_is_open_conflict(model, r)) continue;
-        const double reach = model->rules.gap + 2 * sunder_i_solver_margin(s, pair, 2);
-        ok = sunder_i_relaxations_make(model, pair[0], pair[1], reach, &model->relaxations) &&
-             sunder_i_relaxations_index(&model->relaxations, model);
-    }
-    return ok ? SUNDER_OK : sunder_i_failure_cause(err);
-}
-
 /* Marks the bodies of pairs that may fall short. Their clusters are eased first; later only those that others joined,
  * so that no cluster is eased once more on account of another one. */
 static bool mark_short(sunder_i_solver *s)
@@ -258,11 +241,8 @@ sunder_status sunder_i_solver_ease(sunder_i_solver *solver, sunder_error *err)
 {
     bool more = true, any;
     const bool slack = sunder_i_has_slack(&solver->model);
-    /* A wide margin, which clusters got in vain, would leave no layout without clashes to begin with. */
-    memset(solver->widened, 0, solver->model.bodies * sizeof *solver->widened);
-    sunder_status status = relax_open_pairs(solver, err);
-    if (!status)
-        status = mark_short(solver) ? join_short_pairs(solver, true, &any, err) : sunder_i_failure_cause(err);
+    sunder_status status =
+        mark_short(solver) ? join_short_pairs(solver, true, &any, err) : sunder_i_failure_cause(err);
     for (int round = 0; round < (slack ? MOST_JOININGS_OF_TIGHT : MOST_JOININGS) && more && !status; round++)
         status = ease_round(solver, &more, err);
     sunder_i_free(solver->to_ease);
