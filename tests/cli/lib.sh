@@ -42,7 +42,7 @@ demand_upheld() {
             --input-layer | -l) name=$2 ;;
             --output-layer | -nln) written=$2 ;;
             --gap) gap=$2 ;;
-            --layers | --symbol* | --barrier | --where | -where | --sql | -sql | --spat | -spat | --input-crs | --open-option | -oo) return 0 ;;
+            --layers | --symbol* | --barrier | --least-gap | --hide | --where | -where | --sql | -sql | --spat | -spat | --input-crs | --open-option | -oo) return 0 ;;
         esac
         case $word in
             --input-layer | -l | --gap | --contained | --touch-tolerance | --block-field) same+=("$word" "$2") && shift ;;

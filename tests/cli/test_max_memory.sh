@@ -114,16 +114,16 @@ alike o.shp 99M --symbol disc:4 --effort 0 --layers main,symbols
 
 # A connected group is processed as one part, and a warning is printed if it is too large.
 "$SUNDER_BUILD/sunder-town" --buildings 30000 --seed 6 large.gpkg >/dev/null || fail "no town is made"
-run separate large.gpkg o.gpkg -l buildings --effort 0 --max-memory 99M --overwrite
+run separate large.gpkg o.gpkg -l buildings --effort 0 --rows no --max-memory 99M --overwrite
 grep -q 'as one piece' err && fail "a town is reported as one piece"
 ogrinfo -q large.gpkg -sql 'alter table buildings add column one integer default 1' >/dev/null || fail "no block is made"
-run separate large.gpkg o.gpkg -l buildings --effort 0 --max-memory 99M --overwrite --block-field one
+run separate large.gpkg o.gpkg -l buildings --effort 0 --rows no --max-memory 99M --overwrite --block-field one
 grep -q '30000 features may depend on each other and are separated as one piece: it takes about' err ||
     fail "no message about a block of 30000 features"
 # The warning comes before the separation, and `plan` prints it, too.
 grep -q '30000 features form one connected group, from (.*) to (.*), which is separated as one piece' err ||
     fail "no warning about a block of 30000 features before the separation"
-expect 0 plan large.gpkg one.plan -l buildings --shards 3 --max-memory 99M --block-field one
+expect 0 plan large.gpkg one.plan -l buildings --shards 3 --rows no --max-memory 99M --block-field one
 grep -q '30000 features form one connected group' err || fail "plan does not warn about a block of 30000 features"
 same "$(jq '.largest_group.features' one.plan/plan.json)" 30000 'largest_group of plan.json'
 jq -e '.largest_group.memory_bytes > 1.5 * .max_memory_bytes and .merge.memory_bytes >= .largest_group.memory_bytes' one.plan/plan.json >/dev/null ||
@@ -132,13 +132,13 @@ for k in 1 2 3; do run separate --shard $k one.plan -q; done
 rm -f o.gpkg
 run merge one.plan o.gpkg
 same "$(grep -c 'form one connected group' err)" 1 'number of warnings of merge about a block of 30000 features'
-expect 0 plan large.gpkg none.plan -l buildings --shards 3 --max-memory 99M
+expect 0 plan large.gpkg none.plan -l buildings --shards 3 --rows no --max-memory 99M
 grep -q "one connected group" err && fail "plan reports a town as one connected group"
 # Long diagonal houses in rows: nearly all bounding boxes overlap, but no two houses do, so that shapes decide.
 ogr2ogr -q aslant.gpkg large.gpkg -nln buildings -dialect SQLite -sql "select st_translate(st_geomfromtext(
         'POLYGON((0 0,30 30,28 32,-2 2,0 0))', 25832), 400000 + 9 * (fid % 200) + 31 * (fid / 200), 5500000 + 31 * (fid / 200), 0) as geom from buildings" ||
     fail "the diagonal houses cannot be made"
-expect 0 plan aslant.gpkg aslant.plan -l buildings --shards 3 --max-memory 99M --gap 1
+expect 0 plan aslant.gpkg aslant.plan -l buildings --shards 3 --rows no --max-memory 99M --gap 1
 grep -q "one connected group" err && fail "houses of which only the boxes overlap are reported as one group"
 same "$(jq '.largest_group.features' aslant.plan/plan.json)" 1 'largest_group of diagonal houses'
 rm -rf o.gpkg ./*.plan aslant.gpkg

@@ -268,15 +268,17 @@ static bool prove_bodies(const easing *x, const sunder_i_group *g, eased_group *
 {
     const sunder_report *report = x->report;
     const sunder_i_model *model = &x->solver->model;
-    double rest = 0;
+    double rest = 0, added = 0;
     bool ok = true;
     for (size_t k = 0; k < g->n && ok; k++)
         if (!model->body[g->body[k]].fixed && report->paying[g->body[k]].pairs) ok = prove_body(x, g->body[k], all);
     for (size_t k = 0; k < report->eased && ok; k++) {
         const sunder_i_lacking *l = &report->lacking[k];
-        if (!model->body[l->j].fixed && sunder_i_set_has(g->body, g->n, l->i)) rest += l->alone;
+        if (model->body[l->j].fixed || !sunder_i_set_has(g->body, g->n, l->i)) continue;
+        rest += l->alone;
+        added++;
     }
-    all->bound = (all->bound + rest) * (1 - ((double)report->eased + 8) * 0x1p-50);
+    all->bound = (all->bound + rest) * (1 - (added + 8) * 0x1p-50);
     return ok;
 }
 
