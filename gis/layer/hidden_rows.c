@@ -20,7 +20,8 @@ static bool begin_hidden(gis_sink *sink, const gis_layer_input *input, gis_sink_
     return gis_sink_add(sink, &request, layer, error);
 }
 
-/* Is p a better reason to hide a member of both than q? A proved one is, and of these the one with fewer things. */
+/* Is p a better reason than q to hide a member of both? Proved clauses come first, then those with fewer members, then
+ * those with fewer things. */
 static bool is_better(const sunder_clause *p, const sunder_clause *q)
 {
     if (!q || p->proved != q->proved) return !q || p->proved;

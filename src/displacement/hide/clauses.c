@@ -5,7 +5,8 @@
 
 #include <string.h>
 
-/* Returns the slot of the clause of these features, or an empty one if there is none. The table has an empty slot. */
+/* Returns the slot of the clause that has exactly these features; an empty slot if there is no such clause. The table
+ * always has an empty slot. */
 static uint32_t *find_slot(const sunder_i_clauses *clauses, const uint32_t *member, size_t n)
 {
     uint64_t hash = 0;

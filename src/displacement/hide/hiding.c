@@ -86,7 +86,7 @@ static bool list_things(const sunder_i_model *model, const sunder_report *report
 
 /* ---- Clauses ----------------------------------------------------------------------------------------------------- */
 
-/* Adds the clause of these things, unless none of them may be hidden. */
+/* Makes a clause of these things and adds it, if at least one of them may be hidden. */
 static bool add_clause(sunder_i_hiding *h, const uint32_t *number, sunder_i_list *set, bool proved, bool *added)
 {
     sunder_i_list item = {0};

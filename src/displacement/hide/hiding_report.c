@@ -28,7 +28,7 @@ static uint32_t *find_roots(const sunder_i_hiding *h)
     return parent;
 }
 
-/* A component by its root, of those in which features are in clauses. */
+/* What is known of the component that has its root at a feature. */
 enum { NO_COMPONENT, BEST, UNPROVED };
 
 /* Finds the components. One is unproved if a best choice for its proved clauses is not known. */
