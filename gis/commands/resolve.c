@@ -124,8 +124,6 @@ static bool resolve_rows(const gis_options *options, gis_layer_rules *out, gis_e
     const bool wanted = strcmp(text, "no") != 0;
     out->core.rows = field ? SUNDER_ROWS_GIVEN : wanted ? SUNDER_ROWS_FOUND : SUNDER_ROWS_NONE;
     out->rows_field = options->command->bit == GIS_CHECK ? NULL : field;
-    if (field && options->given[OPT_PROOF])
-        return gis_fail_usage(error, "--proof: the checker of a proof finds rows by itself; use --rows auto or no");
     if (!wanted || !points) return true;
     return gis_fail_usage(error, "--rows: rows are found among polygons, and the symbols of points have none");
 }

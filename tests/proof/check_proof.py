@@ -19,6 +19,7 @@ import trees  # noqa: E402
 import verdicts  # noqa: E402
 from eased import Eased  # noqa: E402
 from form import NotRead, Refused, demand, shown  # noqa: E402
+from given_rows import GivenRows  # noqa: E402
 from prices import Prices  # noqa: E402
 from problem import Problem  # noqa: E402
 from result import Result
@@ -42,7 +43,7 @@ def read_options(words):
     parser.add_argument("--contained")
     parser.add_argument("--invalid", default="repair")
     parser.add_argument("--weight", default="1")
-    parser.add_argument("--rows", choices=("auto", "no"), help="auto unless said; no for points")
+    parser.add_argument("--rows", help="auto, no or FIELD; auto unless said, no for points")
     parser.add_argument("--row-stiffness", default="3,0.3")
     parser.add_argument("--ease", default="30")
     parser.add_argument("--no-blocks", action="store_true")
@@ -54,7 +55,8 @@ def read_options(words):
     options.allow_jumps = options.allow_jumps or options.points
     options.rows = options.rows or ("no" if options.points else "auto")
     stiffness = list(map(float, options.row_stiffness.split(",")))
-    options.row_stiffness = (stiffness + [0.3])[:2] if options.rows == "auto" else None
+    options.row_stiffness = (stiffness + [0.3])[:2] if options.rows != "no" else None
+    options.rows_field = options.rows if options.rows not in ("auto", "no") else None
     options.ease = None if options.ease == "no" else float(options.ease)
     options.contained = options.contained or ("separate" if options.points else "block")
     return options
@@ -76,7 +78,7 @@ class Checker:
     def __init__(self, options):
         self.problem = Problem(options.input, options)
         if options.row_stiffness:
-            self.problem.rows = Rows(self.problem, options.row_stiffness)
+            self.problem.rows = (GivenRows if options.rows_field else Rows)(self.problem, options.row_stiffness)
         self.problem.eased = Eased(self.problem, options.ease)
         self.known, self.kept, self.held = {}, set(), {}
         self.result = Result(self.problem, options.result) if options.result else None

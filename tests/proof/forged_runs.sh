@@ -76,6 +76,7 @@ forge_generated() {
     forged apart mixed.gpkg --gap 1 --max-shift-field m --fixed-where 'w = 3' --block-field k --contained separate
     forged short short.gpkg --gap 1 --no-blocks --max-shift-field m
     forged row row.gpkg --gap 3 --rows auto --fixed-where 'w = 3' --weight-field w
+    only='"row"' forged named row.gpkg --gap 3 --rows w --fixed-where 'w = 3'
     forged bays bays.gpkg --gap 5 --max-shift 1 --rows auto
     forged front front.gpkg --gap 4 --max-shift 4.5 --rows auto --ease 30 --barrier drawn.gpkg,width=6
     forged squeezed squeezed.gpkg --gap 5 --max-shift 20 --fixed-where 'w = 3' --rows auto

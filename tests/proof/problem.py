@@ -102,7 +102,7 @@ class Problem:
         self.crs, self.units = layer.crs, Units(layer.crs, options.scale)
         self.name, self.options = layer.name, self.in_units(options)
         options = self.options
-        for name in (options.max_shift_field, options.weight_field, options.block_field):
+        for name in (options.max_shift_field, options.weight_field, options.block_field, options.rows_field):
             layer.demand_field(name)
         if not options.points:
             leave_out_broken(layer, options.invalid)

@@ -1,4 +1,5 @@
-"""The rows that a file of --proof may name, found from the layer alone: tests/cli/rows_rule.py has the rule, in doubles.
+"""The rows that a file of --proof may name, found from the layer alone: tests/cli/rows_rule.py has the rule, in doubles. Those of
+--rows FIELD are in given_rows.py.
 
 A decision of that rule within MARGIN of its limit, in units of about the gap, counts in favour of the file: a pair of neighbours that it
 names has to be possible, and none that is certain may be missing. The direction and the separation that it states have to be those of
@@ -135,22 +136,30 @@ class Rows:
             i, j = (self.number[body] for body in bodies)
             found = self.possible.get((min(i, j), max(i, j), a, b))
             demand(found and bodies not in self.of, "these are no neighbours in a row:", a, b)
-            self.demand_direction(line, found)
+            self.demand_direction(line)
             self.of[bodies] = self.of[bodies[::-1]] = line
         for c in self.certain:
             demand((self.bodies[c.i], self.bodies[c.j]) in self.of, "neighbours in a row are missing:", c.near.f, c.near.g)
 
-    def demand_direction(self, line, found):
+    def demand_direction(self, line):
         """The direction is that of their walls, and the separation that of the two blocks along it."""
         a, b, along = line["a"], line["b"], tuple(map(Fraction, line["along"]))
-        axes = self.axes_of(a, b)
-        demand(any(max(abs(v - Fraction(w)) for v, w in zip(along, axis)) <= ALIKE for axis in axes) and
+        demand(any(max(abs(v - Fraction(w)) for v, w in zip(along, axis)) <= alike for axis, alike in self.directions(a, b)) and
                abs(along[0] ** 2 + along[1] ** 2 - 1) <= ALIKE, "that is not the direction of the row:", a, b)
         sides = [[(Fraction(p[0]) - self.origin[0]) * along[0] + (Fraction(p[1]) - self.origin[1]) * along[1]
                   for fid in self.problem.block(k) for polygon in self.problem.standing[fid] for ring in polygon for p in ring]
                  for k in (a, b)]
         apart, size = min(sides[1]) - max(sides[0]), max(map(max, sides)) - min(map(min, sides))
-        demand(abs(Fraction(line["apart"]) - apart) <= ALIKE * size, "that is not the separation of", a, "and", b)
+        demand(any(abs(Fraction(line["apart"]) - v) <= ALIKE * size for v in self.separations(line, apart)),
+               "that is not the separation of", a, "and", b)
+
+    def directions(self, f, g):
+        """The directions that a row may have from f to g, each with the greatest difference that is allowed."""
+        return [(axis, ALIKE) for axis in self.axes_of(f, g)]
+
+    def separations(self, line, apart):
+        """What a line may say of two bodies that are `apart` along their row."""
+        return [apart]
 
     # ---- Their rule, and their springs
 
@@ -204,9 +213,11 @@ def has_next(c, others, opposite):
 def axes_of(p, q, blocks):
     """The directions from p to q that a row may have there. blocks: those of p and q"""
     u, v = (h.walls / abs(h.walls) if h.walls else 0 for h in (p, q))
-    if not u + v:
-        return []
-    direction = cmath.rect(1, cmath.phase(u + v) / 4)
+    return axes_along(cmath.rect(1, cmath.phase(u + v) / 4), blocks) if u + v else []
+
+
+def axes_along(direction, blocks):
+    """The same if the row runs in that direction or at right angles to it."""
     axes = [(direction.real, direction.imag), (-direction.imag, direction.real)]
     stand = [[rule.extent(block, axis) for block in blocks] for axis in axes]
     apart = [rule.apart(*s) for s in stand]

@@ -1,6 +1,6 @@
 # shellcheck shell=bash disable=SC1091
-# Proofs with --rows auto: those about generated layers are checked, and whatever a file says wrongly of rows, of their rule or their
-# springs is refused (rows_proofs.py). Five files that name rows, by seed (SUNDER_SEED); 1,000 of them with SUNDER_LAWS=all.
+# Proofs with --rows auto and --rows FIELD: those about generated layers are checked, and whatever a file says wrongly of rows, of their
+# rule or their springs is refused (rows_proofs.py). Five files that name rows, by seed (SUNDER_SEED); 1,000 of them with SUNDER_LAWS=all.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 command -v python3 >/dev/null || { echo "skipped: no python3"; exit 77; }
 export PYTHONDONTWRITEBYTECODE=1
