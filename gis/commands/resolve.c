@@ -157,7 +157,7 @@ static bool resolve_ease(const gis_options *options, double *ease, gis_error *er
 /* What does not work together with hiding is refused. */
 static bool resolve_hiding(const gis_options *options, gis_layer_rules *out, gis_error *error)
 {
-    static const gis_option_id not_with[] = {OPT_PROOF, OPT_MAX_MEMORY};
+    static const gis_option_id not_with[] = {OPT_MAX_MEMORY};
     unsigned weighting = GIS_WEIGHTING_SQRT_AREA;
     out->hide = options->given[OPT_HIDE];
     out->drop_hidden = options->given[OPT_DROP_HIDDEN];

@@ -32,6 +32,17 @@ gis_proof_head gis_proof_head_of(const gis_layer_input *input, const sunder_laye
                             .summary = summary};
 }
 
+static void count_hiding(const gis_proof_lines *lines, gis_proof_head *head)
+{
+    sunder_hiding_summary hiding;
+    sunder_report_hiding(lines->report, &hiding);
+    head->hide = true;
+    head->hidden = hiding.hidden;
+    head->clauses = hiding.proved;
+    head->choices = sunder_report_hiding_trees(lines->report)->trees;
+    head->class = sunder_report_hiding_classes(lines->report, &head->classes);
+}
+
 static bool put_head(gis_proof_lines *lines, const gis_layer_input *input, FILE *to, gis_error *error)
 {
     sunder_layer_summary summary;
@@ -39,6 +50,7 @@ static bool put_head(gis_proof_lines *lines, const gis_layer_input *input, FILE 
     gis_proof_head head = gis_proof_head_of(input, &summary);
     sunder_report_conflicts(lines->report, &head.conflicts);
     sunder_report_bound_trees(lines->report, &head.trees);
+    if (input->request->rules.hide) count_hiding(lines, &head);
     gis_proof_head_line(&lines->json, &head);
     return gis_proof_print(&lines->json, to, error);
 }
@@ -69,17 +81,63 @@ static bool put_line(gis_proof_lines *lines, const char *key, size_t number, gis
     return gis_proof_print(line, to, error);
 }
 
-static bool put_rows(gis_proof_lines *lines, FILE *to, gis_error *error)
+/* Writes a line for each hidden feature. */
+static bool put_hidden(gis_proof_lines *lines, FILE *to, gis_error *error)
 {
-    size_t n;
-    const sunder_row_pair *pair = sunder_report_row_pairs(lines->report, &n);
     bool done = true;
-    for (size_t k = 0; k < n && done; k++) {
-        int64_t name[2];
-        for (int c = 0; c < 2; c++) name[c] = call_feature(lines->things.of, pair[k].feature[c]);
-        gis_proof_row_line(&lines->json, k, name, &pair[k]);
+    size_t k = 0;
+    for (size_t i = 0; i < lines->things.n && done; i++) {
+        if (sunder_report_status(lines->report, i) != SUNDER_FEATURE_HIDDEN) continue;
+        gis_json_open(&lines->json, '{');
+        gis_json_put_size(&lines->json, "hidden", k++);
+        gis_proof_thing(lines, "fid", i);
+        gis_json_close(&lines->json, '}');
+        gis_json_raw(&lines->json, "\n");
+        lines->json.need_comma = false;
         done = gis_proof_print(&lines->json, to, error);
     }
+    return done;
+}
+
+/* Writes the proved clauses, and the trees of the bound of what is hidden. */
+static bool put_choices(gis_proof_lines *lines, gis_json *line, FILE *to, gis_error *error)
+{
+    size_t n, proved = 0;
+    const sunder_clause *clause = sunder_report_clauses(lines->report, &n);
+    const size_t trees = sunder_report_hiding_trees(lines->report)->trees;
+    size_t *number = malloc((n + 1) * sizeof *number);
+    bool done = number || gis_no_memory(error);
+    for (size_t k = 0; k < n && done; k++) {
+        if (!clause[k].proved) continue;
+        number[k] = proved;
+        gis_proof_clause(lines, &clause[k]);
+        done = put_line(lines, "clause", proved++, line, to, error);
+    }
+    for (size_t k = 0; k < trees && done; k++) {
+        gis_proof_choice(lines, k, number);
+        done = put_line(lines, "choice", k, line, to, error);
+    }
+    free(number);
+    return done;
+}
+
+static bool put_row(gis_proof_lines *lines, size_t number, const sunder_row_pair *pair, FILE *to, gis_error *error)
+{
+    int64_t name[2];
+    for (int c = 0; c < 2; c++) name[c] = call_feature(lines->things.of, pair->feature[c]);
+    gis_proof_row_line(&lines->json, number, name, pair);
+    return gis_proof_print(&lines->json, to, error);
+}
+
+/* Writes the neighbours in rows, those with a hidden end last. */
+static bool put_rows(gis_proof_lines *lines, FILE *to, gis_error *error)
+{
+    size_t n, hidden;
+    const sunder_row_pair *pair = sunder_report_row_pairs(lines->report, &n);
+    const sunder_row_pair *with_hidden = sunder_report_hidden_row_pairs(lines->report, &hidden);
+    bool done = true;
+    for (size_t k = 0; k < n && done; k++) done = put_row(lines, k, &pair[k], to, error);
+    for (size_t k = 0; k < hidden && done; k++) done = put_row(lines, n + k, &with_hidden[k], to, error);
     return done;
 }
 
@@ -123,8 +181,9 @@ bool gis_proof_write(const gis_layer_input *input, const sunder_report *report, 
     gis_proof_lines lines;
     gis_json line = {0};
     const bool done = gis_proof_lines_begin(&lines, &things, report, error) && put_head(&lines, input, to, error) &&
-                      put_blocks(&lines, to, error) && put_rows(&lines, to, error) &&
-                      put_conflicts(&lines, &line, to, error) && put_trees(&lines, &line, to, error);
+                      put_blocks(&lines, to, error) && put_hidden(&lines, to, error) && put_rows(&lines, to, error) &&
+                      put_conflicts(&lines, &line, to, error) && put_trees(&lines, &line, to, error) &&
+                      put_choices(&lines, &line, to, error);
     gis_proof_lines_clear(&lines);
     gis_json_clear(&line);
     return done;

@@ -3,6 +3,7 @@
 #include "layer/proof_lines.h"
 
 #include "base/interrupt.h"
+#include "layer/layer_rules.h"
 
 #include <cpl_port.h>
 #include <math.h>
@@ -17,8 +18,7 @@ static void put_feature(gis_proof_lines *w, size_t feature)
     gis_json_signed(&w->json, w->things.feature(w->things.of, feature));
 }
 
-/* Writes a feature as its number, or a barrier as "LAYER:FID". */
-static void put_thing(gis_proof_lines *w, const char *key, size_t thing)
+void gis_proof_thing(gis_proof_lines *w, const char *key, size_t thing)
 {
     if (key) gis_json_key(&w->json, key);
     if (thing < w->things.n) {
@@ -105,7 +105,7 @@ static void put_parts(gis_proof_lines *w, const sunder_proof *proof, const sunde
     put_corners(w, "A", proof->corner + 2 * node->part_a, node->corners_a);
     put_corners(w, "B", proof->corner + 2 * node->part_b, node->corners_b);
     if (node->chord) {
-        put_thing(w, "c", node->c);
+        gis_proof_thing(w, "c", node->c);
         put_corners(w, "side_b", proof->corner + 2 * node->sides, 2);
         put_corners(w, "side_c", proof->corner + 2 * node->sides + 4, 2);
     }
@@ -119,8 +119,8 @@ static void put_parts(gis_proof_lines *w, const sunder_proof *proof, const sunde
 
 static void put_ways(gis_proof_lines *w, const sunder_proof *proof, const sunder_proof_node *node)
 {
-    put_thing(w, "a", node->a);
-    put_thing(w, "b", node->b);
+    gis_proof_thing(w, "a", node->a);
+    gis_proof_thing(w, "b", node->b);
     if (node->row)
         gis_json_put_bool(&w->json, "row", true);
     else
@@ -152,8 +152,10 @@ static void put_still(gis_proof_lines *w, const sunder_proof *proof, const sunde
     gis_json_close(&w->json, ']');
 }
 
-static void put_proof(gis_proof_lines *w, const sunder_proof *proof)
+void gis_proof_nodes(gis_proof_lines *w, const sunder_proof *proof)
 {
+    if (!proof) return;
+    if (proof->within > 0) gis_json_put_double(&w->json, "within", proof->within);
     gis_json_key(&w->json, "proof");
     gis_json_open(&w->json, '[');
     for (size_t k = 0; k < proof->nodes; k++) {
@@ -178,23 +180,27 @@ static void put_proof(gis_proof_lines *w, const sunder_proof *proof)
     gis_json_close(&w->json, ']');
 }
 
+void gis_proof_reason(gis_proof_lines *lines, sunder_reason reason, bool crowded)
+{
+    gis_json_put_string(&lines->json, "reason", sunder_reason_string(reason));
+    if (crowded) gis_json_put_bool(&lines->json, "crowded", true);
+}
+
 void gis_proof_conflict(gis_proof_lines *lines, size_t k)
 {
     size_t n;
     const sunder_conflict *c = &sunder_report_conflicts(lines->report, &n)[k];
     const sunder_proof *proof = sunder_report_proof(lines->report, k);
-    put_thing(lines, "a", c->a);
-    put_thing(lines, "b", c->b);
+    gis_proof_thing(lines, "a", c->a);
+    gis_proof_thing(lines, "b", c->b);
     gis_json_put_string(&lines->json, "kind", sunder_conflict_kind_string(c->kind));
-    gis_json_put_string(&lines->json, "reason", sunder_reason_string(c->reason));
-    if (c->crowded) gis_json_put_bool(&lines->json, "crowded", true);
+    gis_proof_reason(lines, c->reason, c->crowded);
     if (c->inside_block) gis_json_put_bool(&lines->json, "inside_block", true);
     gis_json_key(&lines->json, "blocked_by");
     gis_json_open(&lines->json, '[');
-    for (size_t i = 0; i < c->n_blocked_by; i++) put_thing(lines, NULL, c->blocked_by[i]);
+    for (size_t i = 0; i < c->n_blocked_by; i++) gis_proof_thing(lines, NULL, c->blocked_by[i]);
     gis_json_close(&lines->json, ']');
-    if (proof && proof->within > 0) gis_json_put_double(&lines->json, "within", proof->within);
-    if (proof) put_proof(lines, proof);
+    gis_proof_nodes(lines, proof);
 }
 
 /* ---- Trees ------------------------------------------------------------------------------------------------------- */
@@ -205,6 +211,7 @@ static void put_members(gis_proof_lines *w, size_t thing)
     gis_json_key(&w->json, "features");
     gis_json_open(&w->json, '[');
     for (size_t i = first; i < n; i = w->next[i]) {
+        if (sunder_report_status(w->report, i) == SUNDER_FEATURE_HIDDEN) continue;
         const sunder_feature *f = w->things.demands(w->things.of, i);
         gis_json_open(&w->json, '{');
         gis_json_key(&w->json, "fid");
@@ -227,7 +234,7 @@ static void put_body(gis_proof_lines *w, const sunder_bound_body *body)
     if (body->thing < w->things.n)
         put_members(w, body->thing);
     else
-        put_thing(w, "barrier", body->thing);
+        gis_proof_thing(w, "barrier", body->thing);
     gis_json_put_double(&w->json, "weight", body->weight);
     put_place(&w->json, "shift", body->shift[0], body->shift[1]);
     gis_json_close(&w->json, '}');
@@ -238,8 +245,8 @@ static void put_piece(gis_proof_lines *w, const sunder_bound_tree *tree, const s
     gis_json_open(&w->json, '{');
     gis_json_put_size(&w->json, "i", piece->i);
     gis_json_put_size(&w->json, "j", piece->j);
-    put_thing(w, "a", piece->a);
-    put_thing(w, "b", piece->b);
+    gis_proof_thing(w, "a", piece->a);
+    gis_proof_thing(w, "b", piece->b);
     if (piece->row) {
         gis_json_put_bool(&w->json, "row", true);
         gis_json_close(&w->json, '}');
@@ -452,6 +459,34 @@ void gis_proof_line(gis_json *json, const char *key, size_t number, const char *
     end_line(json);
 }
 
+void gis_proof_class(gis_json *json, uint32_t hierarchy)
+{
+    if (hierarchy == GIS_LAST_CLASS)
+        gis_json_null(json);
+    else
+        gis_json_size(json, hierarchy);
+}
+
+static void put_hiding(gis_json *json, const gis_proof_head *head)
+{
+    gis_json_key(json, "hide");
+    gis_json_open(json, '{');
+    gis_json_put_size(json, "hidden", head->hidden);
+    gis_json_put_size(json, "clauses", head->clauses);
+    gis_json_put_size(json, "choices", head->choices);
+    gis_json_key(json, "bound");
+    gis_json_open(json, '[');
+    for (size_t k = 0; k < head->classes; k++) {
+        if (head->class[k].least == 0) continue;
+        gis_json_open(json, '[');
+        gis_proof_class(json, head->class[k].hierarchy);
+        gis_json_signed(json, head->class[k].least);
+        gis_json_close(json, ']');
+    }
+    gis_json_close(json, ']');
+    gis_json_close(json, '}');
+}
+
 void gis_proof_head_line(gis_json *json, const gis_proof_head *head)
 {
     gis_json_open(json, '{');
@@ -471,6 +506,7 @@ void gis_proof_head_line(gis_json *json, const gis_proof_head *head)
     gis_json_put_double(json, "lower_bound", head->summary->lower_bound);
     gis_json_put_size(json, "conflicts", head->conflicts);
     gis_json_put_size(json, "trees", head->trees);
+    if (head->hide) put_hiding(json, head);
     end_line(json);
 }
 

@@ -9,6 +9,7 @@
 
 #include "base/gis_error.h"
 #include "base/json.h"
+#include "sunder_hiding.h"
 #include "sunder_parts.h"
 #include "sunder_proof.h"
 
@@ -43,6 +44,16 @@ size_t gis_proof_block(const gis_proof_lines *lines, size_t feature);
 /* Make the text that follows the number of conflict k, or of a tree's group. */
 void gis_proof_conflict(gis_proof_lines *lines, size_t k);
 bool gis_proof_tree(gis_proof_lines *lines, const sunder_bound_tree *tree, gis_error *error);
+/* proof_hiding.c: the text that follows the number of a clause, or of tree k of the bound of what is hidden.
+ * clause: the numbers of the proved clauses in the file. */
+void gis_proof_clause(gis_proof_lines *lines, const sunder_clause *clause);
+void gis_proof_choice(gis_proof_lines *lines, size_t k, const size_t *clause);
+/* Writes `reason` and `crowded`. */
+void gis_proof_reason(gis_proof_lines *lines, sunder_reason reason, bool crowded);
+/* Writes the proof with its `within`. NULL: writes nothing. */
+void gis_proof_nodes(gis_proof_lines *w, const sunder_proof *proof);
+/* Writes a feature as its number, or a barrier as "LAYER:FID"; key: NULL in a list. */
+void gis_proof_thing(gis_proof_lines *w, const char *key, size_t thing);
 
 /* The place of a tree: its group's first feature, and its number within the group; and its number in the report. */
 typedef struct gis_proof_place {
@@ -59,8 +70,16 @@ typedef struct gis_proof_head {
     double max_shift;
     const sunder_layer_summary *summary;
     size_t conflicts, trees;
+    /* Only with --hide: the numbers of hidden features, of proved clauses, and of trees of their bound, and that bound
+     * by classes. */
+    bool hide;
+    size_t hidden, clauses, choices;
+    const sunder_hiding_class *class;
+    size_t classes;
 } gis_proof_head;
 
+/* A class as a number, or null. */
+void gis_proof_class(gis_json *json, uint32_t hierarchy);
 void gis_proof_head_line(gis_json *json, const gis_proof_head *head);
 /* Begin and end the line of a block; between the two, the numbers of its members are written. */
 void gis_proof_block_begins(gis_json *json);

@@ -155,7 +155,7 @@ static sunder_status find_rows(comparison *c, sunder_error *err)
     const bool wanted = c->model.rules.rows != SUNDER_ROWS_NONE;
     sunder_status status = wanted ? sunder_i_rows_find(&c->model, &rows, err) : SUNDER_OK;
     if (!status && c->any_hidden) status = sunder_i_placement_hide(&c->model, &c->placement, &c->start, c->hidden, err);
-    sunder_i_rows_forget_hidden(&rows, &c->model);
+    if (!status) status = sunder_i_rows_forget_hidden(&rows, &c->model, err);
     if (!status && wanted) status = sunder_i_rows_make_rule(&rows, &c->placement, &c->start, &c->model, err);
     sunder_i_rows_free(&rows);
     return status;

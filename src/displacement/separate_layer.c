@@ -91,8 +91,7 @@ static sunder_status leave_out(sunder_i_solver *s, const bool *hidden, sunder_er
     for (size_t f = 0; f < s->model.features; f++) own[f] = hidden[s->layer.number[f]];
     const sunder_status status = sunder_i_placement_hide(&s->model, &s->placement, &s->start, own, err);
     sunder_i_free(own);
-    sunder_i_rows_forget_hidden(&s->rows, &s->model);
-    return status;
+    return status ? status : sunder_i_rows_forget_hidden(&s->rows, &s->model, err);
 }
 
 /* Does everything up to the point where the report begins. hidden: NULL, or the features that are left out, by the
@@ -291,12 +290,14 @@ static sunder_status lay_out_visible(sunder_i_solver *s, const sunder_layer *lay
 {
     bool again = true;
     sunder_status status = sunder_i_hiding_begin(layer, hiding, err);
+    hiding->keep_proofs = options->keep_trees;
     while (again && !status) {
         sunder_i_solver_free(s);
         sunder_report_free(*report);
         memset(s, 0, sizeof *s);
         *report = NULL;
         sunder_layer_options with = *options;
+        with.drop_proofs = false; /* clauses need all of them */
         if (!hiding->thorough) { /* never the last layout: easing changes no verdict */
             with.effort = 0;
             if (with.full_gap <= with.gap) with.ease = 0;
@@ -305,8 +306,10 @@ static sunder_status lay_out_visible(sunder_i_solver *s, const sunder_layer *lay
         if (!status) status = find_reasons(s, *report, err);
         if (!status) status = sunder_i_hiding_learn(hiding, &s->model, s->layer.number, *report, &again, err);
     }
-    if (!status) sunder_i_report_forget_conflicts(*report);
-    return status;
+    if (status) return status;
+    sunder_i_report_forget_conflicts(*report);
+    s->model.rules.drop_proofs = (*report)->stripped = options->drop_proofs;
+    return SUNDER_OK;
 }
 
 static sunder_status separate_layer(sunder_i_solver *s, const sunder_layer *layer, const sunder_layer_options *options,

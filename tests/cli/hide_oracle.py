@@ -8,9 +8,10 @@ coordinates are multiples of 1/8, and all tests are of whole numbers. The best c
 
 Asked of each corridor: no feature of class 0 is hidden; hidden features stay where they were; the others keep their gap
 and their limits, save conflicts between features of class 0 and posts, where these have no layout by themselves; no
-choice is better than the best one; and it is the best one wherever the program says that each component is proved. Asked
-of each layer: the sums that are printed are those of the hidden features, the bound is not above the best sum if there
-is one class, and nearly all components are proved. Uses only Python's standard library, and no code of the program."""
+choice is better than the best one; it is the best one wherever the program says that each component is proved; and no
+proved clause has a layout. Asked of each layer: the checker accepts the file of --proof, the sums that are printed are
+those of the hidden features, the bound is not above the best sums by class, and nearly all components are proved. Uses
+only Python's standard library, and no code of the program."""
 import itertools
 import json
 import math
@@ -20,6 +21,8 @@ import sqlite3
 import struct
 import subprocess
 import sys
+
+from hide_clauses import Clauses
 
 APART, CORRIDORS, GAP, SCALE, LAST = 4096.0, 16, 4.0, 8, 1 << 40
 HIGH = 60.0
@@ -232,12 +235,13 @@ def corners(blob):
 
 
 class Run:
-    """A run of the program: states, shapes before and after, conflicts and statistics."""
+    """A run of the program: states, shapes before and after, conflicts and statistics; with `proof` also the clauses, and
+    what the checker of the proof refuses."""
 
-    def __init__(self, program, words, result="out.gpkg", source="in.gpkg"):
-        done = subprocess.run([program, "separate", source, result, "--overwrite", "--input-layer", "houses", "--stats",
-                               "stats.json", "--no-blocks", "--contained", "separate", "--hide"] + words,
-                              capture_output=True, text=True)
+    def __init__(self, program, words, result="out.gpkg", source="in.gpkg", proof=None):
+        words = ["--input-layer", "houses", "--no-blocks", "--contained", "separate", "--hide", *words]
+        done = subprocess.run([program, "separate", source, result, "--overwrite", "--stats", "stats.json", *words,
+                               *(["--proof", proof] if proof else [])], capture_output=True, text=True)
         assert done.returncode in (0, 3), (done.stderr, words)
         self.status, self.hidden_stats = done.returncode, json.load(open("stats.json"))["hidden"]
         self.verified = json.load(open("stats.json"))["verified"]
@@ -251,6 +255,8 @@ class Run:
         self.hidden = {f: row for f, *row in data.execute("SELECT fid, class, weight, forced, because FROM houses_hidden")}
         self.marks = {f for f, in data.execute("SELECT fid FROM houses WHERE sunder_inv = 1")}
         data.close(), given.close()
+        self.clauses = Clauses(proof) if proof else None
+        self.refused = self.clauses.refused(source, words + ["--result", result]) if proof else []
 
 
 # ---- What is asked -------------------------------------------------------------------------------------------------------
@@ -283,16 +289,14 @@ def check_places(c, fids, run, listed):
 
 
 def check_reasons(c, fids, run, hidden):
-    """Sentences about hidden houses whose set of features and barriers has a layout, or whose row is wrong."""
+    """Sentences about hidden houses whose row is wrong."""
     trouble = []
     for k in hidden:
         level, weight, forced, because = run.hidden[fids[k]]
-        names = because.split(",")
+        names = because.split(": ")[-1].split(",")
         own = [fids.index(int(name)) for name in names if ":" not in name]
         if level != (c.level[k] if "--hierarchy-field" in c.how.words else 1) or round(1000 * weight) != c.weight(k) or k not in own:
             trouble.append("hidden house %d: %s" % (fids[k], run.hidden[fids[k]]))
-        if c.has_layout_beside(own, names):
-            trouble.append("hidden house %d: there is a layout of %s" % (fids[k], because))
         if forced and any(c.rank(j) for j in own if j != k):
             trouble.append("hidden house %d is not forced by %s" % (fids[k], because))
     return trouble
@@ -305,7 +309,10 @@ def check_corridor(c, fids, run, exact):
     listed = {(min(a, b), max(a, b)) if not barrier else (a, None) for a, b, barrier, _, _ in mine}
     trouble = check_places(c, fids, run, listed)
     trouble += ["house %d of class 0 is hidden" % fids[k] for k in hidden if c.rank(k) == 0]
-    trouble += check_reasons(c, fids, run, hidden) if exact else []
+    trouble += check_reasons(c, fids, run, hidden)
+    for members, named in run.clauses.all:
+        if members[0] in fids and c.has_layout_beside([k for k, fid in enumerate(fids) if fid in named], named):
+            trouble.append("there is a layout of the clause of %s, with %s" % (members, named))
     best, cost = c.best(), c.cost(hidden)
     if best is None:
         trouble += ["a conflict of class 0 alone is expected: %s" % (row,) for row in mine
@@ -344,7 +351,7 @@ def check_layer(program, seed, counts):
     how = Manner(rng)
     corridors = [Corridor(rng, t, how) for t in range(CORRIDORS)]
     where = write_layers(corridors)
-    run = Run(program, how.words)
+    run = Run(program, how.words, proof="proof.jsonl")
     stats, trouble, bests = run.hidden_stats, [], []
     exact = stats["components"] == stats["components_proved"]
     for t, c in enumerate(corridors):
@@ -356,8 +363,10 @@ def check_layer(program, seed, counts):
     weight = sum(corridors[where[f][0]].weight(where[f][1]) for f in hidden)
     if (stats["count"], round(1000 * stats["weight"])) != (len(hidden), weight):
         trouble.append("printed %s, hidden are %d, of weight %d" % (stats, len(hidden), weight))
-    if len(set(how.classes())) == 1 and round(1000 * stats["lower_bound"]) > sum(sum(b) for b in bests):
-        trouble.append("bound %s, best %d" % (stats["lower_bound"], sum(sum(b) for b in bests)))
+    best = dict(zip(sorted({c for c in how.classes() if c}), map(sum, zip(*bests)))) if None not in bests else None
+    if best and run.clauses.is_above(best):
+        trouble.append("bound %s, best %s" % (run.clauses.bound, best))
+    trouble += run.refused
     if exact and round(1000 * stats["lower_bound"]) != weight:
         trouble.append("all is proved, but the bound is %s, the weight %d" % (stats["lower_bound"], weight))
     if (run.status == 3) != bool(run.conflicts):

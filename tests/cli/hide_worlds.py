@@ -4,8 +4,9 @@ Makes layers of worlds that are far from each other: two to five rectangles with
 are segments or rectangles. Houses may jump and cross barriers. Coordinates are multiples of 1/64, so that doubles hold what
 is computed here without error.
 
-Asked of each world: visible houses keep the gap and their limits, and hidden ones stay. If all components of the layer are
-proved, no choice is better for which a layout is found: houses are placed one after the other, at places where they touch
+Asked of each world: visible houses keep the gap and their limits, and hidden ones stay; no layout is found of a proved clause;
+and if all components of the layer are proved, none of a better choice. Asked of each layer: the checker accepts the file of
+--proof, and its bound is not above what is hidden. For a layout houses are placed one after the other, at places where they touch
 the gap of barriers and of houses placed before, at places of a grid and at random ones. Uses only Python's standard
 library, and no code of the program."""
 import itertools
@@ -89,8 +90,9 @@ class World:
         for _ in range(6):
             yield steps(rng.uniform(-r, r)), steps(rng.uniform(-r, r))
 
-    def layout(self, rng, kept, placed, left):
+    def layout(self, rng, kept, placed, left, barriers=None):
         """Places of the houses to place, besides those that are; None if none was found. left: [trials] to go."""
+        barriers = self.barrier if barriers is None else barriers
         if not kept:
             return placed
         k, r = kept[0], self.limit[kept[0]]
@@ -100,9 +102,9 @@ class World:
             if left[0] < 0:
                 return None
             p = x0 + x, y0 + y, x1 + x, y1 + y
-            if x * x + y * y > r * r or not all(self.clear(p, q) for q in self.barrier + list(placed.values())):
+            if x * x + y * y > r * r or not all(self.clear(p, q) for q in barriers + list(placed.values())):
                 continue
-            found = self.layout(rng, kept[1:], {**placed, k: p}, left)
+            found = self.layout(rng, kept[1:], {**placed, k: p}, left, barriers)
             if found:
                 return found
         return None
@@ -119,7 +121,7 @@ class World:
         return None
 
 
-def check_world(w, fids, run, exact, rng):
+def check_world(w, fids, names, run, exact, rng):
     """Sentences about what is wrong."""
     trouble, place = [], {}
     hidden = {k for k, fid in enumerate(fids) if run.state[fid] == "hidden"}
@@ -139,6 +141,11 @@ def check_world(w, fids, run, exact, rng):
     trouble += ["house %d of class 0 is hidden" % fids[k] for k in hidden if w.rank(k) == 0]
     trouble += ["house of a class in a conflict: %s" % (row,) for row in run.conflicts
                 if any(f in fids and w.rank(fids.index(f)) for f in row[:2])]
+    for members, named in run.clauses.all:
+        if members[0] in fids:
+            kept, barriers = [k for k, fid in enumerate(fids) if fid in named], [b for b, name in zip(w.barrier, names) if name in named]
+            found = w.layout(rng, kept, {}, [TRIALS], barriers)
+            trouble += ["there is a layout of the clause of %s, with %s: %s" % (members, named, found)] * (found is not None)
     better = w.find_better(rng, hidden) if exact and hidden else None
     if better:
         trouble.append("hidden %s, better: %s" % ([fids[k] for k in hidden], better))
@@ -150,22 +157,26 @@ def check_layer(program, seed, counts):
     gap, weighting = rng.choice((0.5, 1.0, 2.0, 3.0)), rng.choice(("1", "area", "sqrt-area"))
     levels = rng.choice(([1], [1, 2, None], [0, 1, 2]))
     worlds = [World(rng, t, gap, levels, weighting) for t in range(WORLDS)]
-    houses, lines, areas, at = [], [("LINESTRING(-9000 -9000,-9000 -9001)", 1)], \
-        [("POLYGON((-9000 -9100,-8999 -9100,-8999 -9101,-9000 -9100))", 1)], []
+    houses, lines, areas, at, names = [], [("LINESTRING(-9000 -9000,-9000 -9001)", 1)], \
+        [("POLYGON((-9000 -9100,-8999 -9100,-8999 -9101,-9000 -9100))", 1)], [], []
     for w in worlds:
         at.append([len(houses) + 1 + k for k in range(len(w.house))])
         houses += [(w.text(h), m, c) for h, m, c in zip(w.house, w.limit, w.level)]
+        names.append([])
         for b in w.barrier:
-            (lines if w.text(b)[0] == "L" else areas).append((w.text(b), 1))
+            kind, of = ("lines", lines) if w.text(b)[0] == "L" else ("areas", areas)
+            of.append((w.text(b), 1))
+            names[-1].append("%s:%d" % (kind, len(of)))
     make_layers((("houses", "POLYGON", "most,class", houses), ("lines", "LINESTRING", "x", lines),
                  ("areas", "POLYGON", "x", areas)))
     words = ["--gap", repr(gap), "--max-shift-field", "most", "--hide-weight", weighting, "--hierarchy-field", "class",
              "--allow-jumps", "--rows", "no", "--barrier", "in.gpkg,layer=lines,side=no", "--barrier",
              "in.gpkg,layer=areas,side=no"]
-    run, trouble = Run(program, words), []
+    run, trouble = Run(program, words, proof="proof.jsonl"), []
+    trouble += run.refused
     exact = run.hidden_stats["components"] == run.hidden_stats["components_proved"]
     for t, w in enumerate(worlds):
-        trouble += ["world %d: %s" % (t, line) for line in check_world(w, at[t], run, exact, rng)]
+        trouble += ["world %d: %s" % (t, line) for line in check_world(w, at[t], names[t], run, exact, rng)]
     count(counts, run.hidden_stats)
     return trouble, words
 

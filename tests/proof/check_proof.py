@@ -20,6 +20,7 @@ import verdicts  # noqa: E402
 from eased import Eased  # noqa: E402
 from form import NotRead, Refused, demand, shown  # noqa: E402
 from given_rows import GivenRows  # noqa: E402
+from hiding import Hiding  # noqa: E402
 from prices import Prices  # noqa: E402
 from problem import Problem  # noqa: E402
 from result import Result
@@ -48,6 +49,9 @@ def read_options(words):
     parser.add_argument("--ease", default="30")
     parser.add_argument("--no-blocks", action="store_true")
     parser.add_argument("--allow-jumps", action="store_true")
+    parser.add_argument("--hide", action="store_true")
+    parser.add_argument("--hierarchy-field")
+    parser.add_argument("--hide-weight", choices=("1", "area", "sqrt-area"), default="sqrt-area")
     for name in ("effort", "seed", "id-field", "threads"):
         parser.add_argument("--" + name, help="no part of what is claimed")
     options = parser.parse_args(words)
@@ -80,6 +84,7 @@ class Checker:
         if options.row_stiffness:
             self.problem.rows = (GivenRows if options.rows_field else Rows)(self.problem, options.row_stiffness)
         self.problem.eased = Eased(self.problem, options.ease)
+        self.hiding = Hiding(self.problem, options) if options.hide else None
         self.known, self.kept, self.held = {}, set(), {}
         self.result = Result(self.problem, options.result) if options.result else None
 
@@ -88,22 +93,30 @@ class Checker:
         proof, problem = form.Proof(lines, self.known), self.problem
         check_header(proof.head, problem.options, problem.name)
         problem.blocks.demand_all(proof.blocks)
+        demand(("hide" in proof.head) == bool(self.hiding), "the proof is of another problem, with or without hidden features")
+        if self.hiding:
+            self.hiding.begin(proof.head["hide"], proof.hidden)
         problem.list_conflicts(proof.conflicts)
         problem.eased.list_conflicts(proof.conflicts)
         demand(problem.rows or not proof.rows, "rows, where none are looked for")
         if problem.rows:
             problem.rows.demand_all(proof.rows)
-        listed = repr((sorted(problem.listed.items()), proof.rows, sorted((str(c["a"]), str(c["b"]), c["reason"]) for c in proof.conflicts)))
+        listed = repr((sorted(problem.listed.items()), proof.rows, proof.hidden, sorted((str(c["a"]), str(c["b"]), c["reason"]) for c in proof.conflicts)))
         found, proved = [], 0
-        for key, told in proof.verdicts_and_trees():
+        for key, told in proof.statements():
             if key == "group":
                 found.append(self.once(told, listed, self.check_tree))
+            elif key == "clause":
+                self.hiding.clauses.append(self.once(told, listed, self.hiding.check_clause))
+            elif key == "choice":
+                self.hiding.add_choice(self.hiding.check_choice(told))
             else:
                 proved += self.once(told, listed, self.check_verdict)
         total, bound = trees.add_up(found) + problem.eased.rest({pair for tree in found for pair in tree.prices}), proof.head["lower_bound"]
         demand(total >= bound, "the bound proved is", shown(total), "and not", bound)
         said = (f"bound {bound:.9g}: {len(found)} trees, {sum(t.nodes for t in found)} nodes, {sum(t.cuts for t in found)} cuts; "
                 f"{len(proof.blocks)} blocks; {proved} of {len(proof.conflicts)} conflicts with proofs; ")
+        said += self.hiding.end(proof.head["hide"]) if self.hiding else ""
         return said + (self.result.check(proof.conflicts, total) if self.result else "the list of conflicts is the file's own")
 
     def keep(self, lines):

@@ -119,11 +119,16 @@ def all_of(kind, least=0, most=None):
     return listed
 
 
-def pair_of(first, second):
+def listed_as(*kinds):
+    """A list that has these kinds of values, in order."""
     def kind(value, where):
-        demand(type(value) is list and len(value) == 2, "no pair:", where)
-        return [first(value[0], where), second(value[1], where)]
+        demand(type(value) is list and len(value) == len(kinds), "no pair, or a list of another length:", where)
+        return [k(v, where) for k, v in zip(kinds, value)]
     return kind
+
+
+def pair_of(first, second):
+    return listed_as(first, second)
 
 
 def members(needed, optional=()):
@@ -159,10 +164,11 @@ question = members({"a": thing, "b": thing, "A": corners, "B": corners, "ways": 
 question = either("row", members({"a": thing, "b": thing, "row": true, "ways": all_of(way, 1, 1), "forces": all_of(way_force, 0, 0)}),
                   question)
 leaf = members({"forces": all_of(way_force, 1)}, {"still": all_of(pair_of(whole, whole), 2, 2)})
+nodes_of_proof = all_of(either("ways", question, leaf), 1)
 conflict = members({"conflict": whole, "a": thing, "b": thing, "kind": one_of(KINDS), "reason": one_of(REASONS),
                     "blocked_by": all_of(thing)},
                    {"crowded": true, "inside_block": true, "within": positive,
-                    "proof": all_of(either("ways", question, leaf), 1)})
+                    "proof": nodes_of_proof})
 
 feature = members({"fid": integer, "weight": positive, "max_shift": or_null(not_negative)}, {"anchor": place})
 shared = {"weight": or_null(positive), "shift": place}
@@ -196,12 +202,20 @@ group = either("prices", members({**tree, "prices": prices}),
                members({**tree, "pieces": all_of(piece), "nodes": all_of(node, 1)},
                        {"springs": all_of(spring, 1), "eased": all_of(pair_of(whole, whole), 1)}))
 row = members({"row": whole, "a": integer, "b": integer, "along": place, "apart": number})
+weights = all_of(pair_of(or_null(whole), integer))
+hide = members({"hidden": whole, "clauses": whole, "choices": whole, "bound": weights})
 head = members({"sunder_proof": whole, "layer": name, "gap": not_negative, "max_shift": or_null(not_negative),
                 "contained": one_of(("block", "ignore", "separate")), "allow_jumps": boolean,
                 "lower_bound": not_negative, "conflicts": whole, "trees": whole},
-               {"row_stiffness": all_of(not_negative, 2, 2), "ease": positive})
+               {"row_stiffness": all_of(not_negative, 2, 2), "ease": positive, "hide": hide})
 block = members({"block": all_of(integer, 2)})
-LINES = {"block": block, "row": row, "conflict": conflict, "group": group}
+hidden = members({"hidden": whole, "fid": integer})
+clause = members({"clause": whole, "members": all_of(pair_of(integer, whole), 1), "a": thing, "b": thing, "reason": one_of(REASONS)},
+                 {"crowded": true, "within": positive, "proof": nodes_of_proof})
+choice_node = either("split", members({"split": integer, "level": whole}),
+                     either("unmet", members({"unmet": whole}), members({"shares": all_of(listed_as(whole, or_null(whole), integer))})))
+choice = members({"choice": whole, "bound": weights, "nodes": all_of(choice_node, 1)})
+LINES = {"block": block, "hidden": hidden, "row": row, "conflict": conflict, "group": group, "clause": clause, "choice": choice}
 
 
 def once(pairs):
@@ -228,12 +242,15 @@ class Proof:
 
     def __init__(self, lines, known):
         self.lines, self.known, self.head = lines, known, None
-        self.blocks, self.rows, self.conflicts = [], [], []
+        self.blocks, self.hidden, self.rows, self.conflicts = [], [], [], []
         for key, found in self.entries():
             if key == "head":
                 self.head = found
             elif key == "block":
                 self.blocks.append(found["block"])
+            elif key == "hidden":
+                demand(found["hidden"] == len(self.hidden), "hidden features are not in order")
+                self.hidden.append(found["fid"])
             elif key == "row":
                 self.rows.append(found)
             elif key == "conflict":
@@ -242,6 +259,7 @@ class Proof:
                 break
         demand(self.head, "an empty proof")
         demand(len(self.conflicts) == self.head["conflicts"], "lines are missing")
+        demand("hide" in self.head or not self.hidden, "hidden features, where none are wanted")
         demand([c["conflict"] for c in self.conflicts] == list(range(len(self.conflicts))), "conflicts are not in order")
 
     def entries(self):
@@ -251,20 +269,25 @@ class Proof:
             demand(type(line) is dict and (k > 1 or line.get("sunder_proof") == VERSION), "no proof of this version")
             key = "head" if k == 1 else next((w for w in LINES if w in line), None)
             demand(key, "line", k, "is of no kind")
-            demand(order.index(key) >= at, "line", k, "comes too late: blocks, rows, conflicts, groups")
+            demand(order.index(key) >= at, "line", k, "comes too late: blocks, hidden, rows, conflicts, groups, clauses, choices")
             at = order.index(key)
             yield key, self.known.get(id(line)) or {"head": head, **LINES}[key](line, f"line {k}")
 
-    def verdicts_and_trees(self):
+    def statements(self):
         trees = last = 0
+        counts = {"clause": 0, "choice": 0}
         again = iter(self.conflicts)
         for key, found in self.entries():
             demand(key != "conflict" or without_proof(found) == next(again, None), "the file is another than it was a moment ago")
             if key == "group":
                 demand(found["group"] - last in (0, 1) and (trees or not found["group"]), "groups are not in order")
                 trees, last = trees + 1, found["group"]
-            if key in ("conflict", "group"):
+            if key in counts:
+                demand("hide" in self.head and found[key] == counts[key], "clauses or choices are not in order, or not wanted")
+                counts[key] += 1
+            if key in ("conflict", "group", *counts):
                 yield key, found
+        demand("hide" not in self.head or all(counts[k] == self.head["hide"][k + "s"] for k in counts), "lines are missing")
         demand(trees == self.head["trees"] and next(again, None) is None, "lines are missing")
 
 

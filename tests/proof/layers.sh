@@ -112,6 +112,17 @@ make_bays() {
         layer squeezed.gpkg buildings POLYGON
 }
 
+# Three houses at one place; three houses between walls that hold two, one of them of class 0, and one
+# on a road; a block of two (by k), of which one is on the road, too, and its neighbour.
+make_hidden() {
+    printf '%s\n' WKT,class,k '"POLYGON((0 60,10 60,10 70,0 70))",2,' '"POLYGON((0.5 60,10.5 60,10.5 70,0.5 70))",2,' '"POLYGON((0 60.5,10 60.5,10 70.5,0 70.5))",2,' \
+        '"POLYGON((0 0,10 0,10 10,0 10))",2,' '"POLYGON((9 0,19 0,19 10,9 10))",1,' '"POLYGON((18 0,28 0,28 10,18 10))",0,' \
+        '"POLYGON((100 0,110 0,110 10,100 10))",,' '"POLYGON((100 20,110 20,110 30,100 30))",3,7' '"POLYGON((112 20,120 20,120 30,112 30))",3,7' \
+        '"POLYGON((120.25 20,128 20,128 30,120.25 30))",3,' | layer hidden.gpkg buildings POLYGON
+    printf '%s\n' WKT,w '"POLYGON((-9 -1,37 -1,37 -0.5,-9 -0.5))",1' '"POLYGON((-9 10.5,37 10.5,37 11,-9 11))",1' '"POLYGON((-1 -1,-0.5 -1,-0.5 11,-1 11))",1' \
+        '"POLYGON((28.5 -1,29 -1,29 11,28.5 11))",1' '"LINESTRING(105 -50,105 50)"',1 | layer walls.gpkg walls GEOMETRY
+}
+
 make_through() {
     printf 'WKT,w\n"LINESTRING(-30 3,40 3)",1\n' | layer through.gpkg through LINESTRING
 }

@@ -14,6 +14,7 @@ from collections import Counter
 
 import check_proof
 import form
+from hide_mutations import HIDES
 from price_mutations import PRICES
 
 CUTS = {"hull": "not forbidden", "disc": "may be cheap", "cone": "do not cover", "limit": "what the limit leaves"}
@@ -552,15 +553,17 @@ class Asker:
         # If several trees of a group share the weights of its bodies, no tree needs the others for its own proof.
         of = Counter(t["group"] for t in self.lines if "group" in t)
         trees = sorted((t for t in self.lines if "group" in t and of[t["group"]] == 1), key=lambda t: len(json.dumps(t)))
-        alone = [(self.alone(tree=t), -1) for t in trees]
+        alone = [] if self.checker.hiding else [(self.alone(tree=t), -1) for t in trees]
         for kind, mutations in (("bodies", BODIES), ("nodes", TREES), ("prices", PRICES)):
             own = [(lines, at) for lines, at in alone if kind in lines[at]]
             for name, mutate in mutations.items():
                 self.ask(name, own, lambda lines, at, m=mutate: m(lines[at]))
-        for name, mutate in WHOLE.items():
+        for name, mutate in HIDES.items() if self.checker.hiding else ():
+            self.ask(name, [(self.lines, -1)], lambda lines, at, m=mutate: m(lines))
+        for name, mutate in () if self.checker.hiding else WHOLE.items():
             self.ask(name, alone, lambda lines, at, m=mutate: m(lines))
         proofs = sorted((t for t in self.lines if "proof" in t), key=lambda t: len(json.dumps(t)))
-        for name, mutate in VERDICTS.items():
+        for name, mutate in () if self.checker.hiding else VERDICTS.items():
             candidates = [(self.alone(conflict=t), t["conflict"]) for t in proofs]
             self.ask(name, candidates, lambda lines, k, m=mutate:
                      m(next(t for t in lines if t.get("conflict") == k)))

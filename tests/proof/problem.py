@@ -147,6 +147,7 @@ class Problem:
                 self.sides.add(key)
         self.anchors, self.side_anchors = {}, {}
         self.rows = self.eased = None  # see rows.py, eased.py
+        self.look_at(None)
         self.blocks = Blocks(self)
         self.blocks.find()
 
@@ -207,7 +208,7 @@ class Problem:
     def body_limit(self, fids):
         """The members of a block, or a barrier."""
         if fids not in self.limits:
-            self.limits[fids] = self.least_limit(fids)
+            self.limits[fids] = self.least_limit(self.blocks.block(fids[0]))
         return self.limits[fids]
 
     def least_limit(self, fids):
@@ -239,8 +240,23 @@ class Problem:
             self.median = areas[n // 2] if n % 2 else areas[n // 2 - 1] / 2 + areas[n // 2] / 2
         return self.median
 
+    # ---- What is visible
+
+    def look_at(self, visible):
+        """visible: whether a feature is there at all; None: all are. Blocks and their limits, what lies in what, and rows stay those of
+        all features."""
+        self.visible, self.partial = visible, {}
+
+    def is_hidden(self, key):
+        return self.visible is not None and not self.is_barrier(key) and not self.visible(key)
+
     def block(self, fid):
-        return self.blocks.block(fid)
+        """The visible members of the feature's block."""
+        if self.visible is None:
+            return self.blocks.block(fid)
+        if fid not in self.partial:
+            self.partial[fid] = tuple(k for k in self.blocks.block(fid) if not self.is_hidden(k))
+        return self.partial[fid]
 
     # ---- Pairs
 
@@ -250,6 +266,7 @@ class Problem:
         demand(self.may_move(a) or self.may_move(b), "neither", a, "nor", b, "moves")
         demand(b not in self.block(a), a, "and", b, "are of one block")
         demand(a not in self.skipped and b not in self.skipped, a, "or", b, "is ignored, or nothing")
+        demand(not self.is_hidden(a) and not self.is_hidden(b), a, "or", b, "is hidden")
 
     def may_move(self, key):
         return not self.is_barrier(key) and self.body_limit(self.block(key)) != 0
@@ -331,10 +348,15 @@ class Problem:
 
     def demand_listed(self, told):
         a, b = told["a"], told["b"]
+        self.demand_pair(a, b)
+        demand(bool(told.get("inside_block")) == (b in self.block(a)), a, "and", b, "are of one block, or are not")
+
+    def demand_pair(self, a, b):
+        """Fails unless the two may be in a conflict."""
         demand(a in self.things and b in self.things and a != b, "a conflict of", a, "and", b)
         demand(not {a, b} & self.skipped, a, "or", b, "is ignored, or nothing, and has no conflict")
+        demand(not self.is_hidden(a) and not self.is_hidden(b), a, "or", b, "is hidden, and has no conflict")
         demand(not (self.is_barrier(a) and self.is_barrier(b)), a, "and", b, "are barriers, and have no conflict")
-        demand(bool(told.get("inside_block")) == (b in self.block(a)), a, "and", b, "are of one block, or are not")
 
     def demand_shadow(self, a, told_a, b, told_b):
         """Checks the two parts of a shadow: an anchor, and a part of a feature or barrier that may not be passed."""
@@ -417,7 +439,7 @@ class Problem:
     def demand_feature(self, told):
         """Checks a member of a body: what the file says about it has to be what the layer and the options give."""
         fid, limit = told["fid"], told["max_shift"]
-        demand(fid in self.things and not self.is_barrier(fid) and fid not in self.skipped, "there is no feature", fid)
+        demand(fid in self.things and not self.is_barrier(fid) and fid not in self.skipped and not self.is_hidden(fid), "there is no feature", fid)
         demand(limit == self.own_limit(fid), "the limit of", fid, "is", self.own_limit(fid), "and not", limit)
         demand(told["weight"] == self.weight(fid), "the weight of", fid, "is", self.weight(fid), "and not", told["weight"])
         if "anchor" in told:

@@ -17,7 +17,11 @@ class Result:
 
     def check(self, conflicts, total):
         """The cost of the result, in words."""
-        demand(set(self.problem.place) <= set(self.moves), "the result has other features")
+        there = {fid for fid in self.problem.place if not self.problem.is_hidden(fid)}
+        demand(there <= set(self.moves), "the result has other features")
+        left_out = {fid for fid, (row, _, _) in self.main.items() if row.get("sunder_inv")}
+        demand(not left_out & there and all(fid in left_out or fid in there or fid not in self.main for fid in self.problem.place),
+               "the result hides other features")
         compared = 0 if self.problem.options.points else self.check_anchors()
         self.check_moves()
         self.check_conflicts(conflicts)
@@ -53,7 +57,8 @@ class Result:
             demand(limit is None or self.square(fid) <= Fraction(limit) ** 2, "the result moves", fid, "beyond its limit")
             self.check_place(fid)
         for fid, members in problem.blocks.of.items():
-            demand(self.moves[fid] == self.moves[members[0]], "the result moves", fid, "and not the block of", members[0])
+            members = self.problem.block(fid)
+            demand(fid not in members or self.moves[fid] == self.moves[members[0]], "the result moves", fid, "and not the block of", *members[:1])
 
     def check_place(self, fid):
         """Demands that every corner is the double nearest to the sum of the original corner and the move. Repaired

@@ -28,7 +28,7 @@ class Rows:
     def __init__(self, problem, stiffness):
         self.problem, self.stiffness = problem, [Fraction(k) for k in stiffness]
         present = [fid for fid in problem.place if fid not in problem.skipped]
-        self.bodies = sorted({problem.block(fid) for fid in present}, key=lambda fids: problem.place[fids[0]])
+        self.bodies = sorted({problem.blocks.block(fid) for fid in present}, key=lambda fids: problem.place[fids[0]])
         self.number = {fids: k for k, fids in enumerate(self.bodies)}
         gap = problem.options.gap
         self.scale = math.frexp(gap)[1] if gap else 0  # coordinates are divided by this power of two
@@ -65,7 +65,7 @@ class Rows:
         """The pairs that may stand side by side, with no third body between, nor a line."""
         reach, nearest = rule.REACH * self.gap, {}
         for f, g in self.pairs(reach):
-            i, j = (self.number[self.problem.block(fid)] for fid in (f, g))
+            i, j = (self.number[self.problem.blocks.block(fid)] for fid in (f, g))
             near = rule.Near(f, g, self.house[f], self.house[g], reach)
             if i != j and near.distance <= reach + 1:
                 nearest.setdefault((min(i, j), max(i, j)), []).append(near)
@@ -103,7 +103,7 @@ class Rows:
         return rule.made_edge(*pair, near, self.house, self.blocks_of(near.f, near.g), self.lines, self.gap)
 
     def blocks_of(self, *fids):
-        return [rule.Block([self.house[fid] for fid in self.problem.block(k)]) for k in fids]
+        return [rule.Block([self.house[fid] for fid in self.problem.blocks.block(k)]) for k in fids]
 
     def axes_of(self, f, g):
         return axes_of(self.house[f], self.house[g], self.blocks_of(f, g))
@@ -111,7 +111,7 @@ class Rows:
     def side(self, c, body):
         """The side of the body that faces the other one; None where it is undecided."""
         towards = self.axes_of(c.near.f, c.near.g)
-        from_f = self.problem.block(c.near.f) == self.bodies[body]
+        from_f = self.problem.blocks.block(c.near.f) == self.bodies[body]
         sides = {rule.tried(rule.side_of, self.bodies[body], self.house, (x, y) if from_f else (-x, -y)) for x, y in towards}
         return sides.pop() if len(sides) == 1 else None
 
@@ -132,7 +132,7 @@ class Rows:
         for line in told:
             a, b = line["a"], line["b"]
             demand(a in self.house and b in self.house, "no neighbours in a row:", a, b)
-            bodies = problem.block(a), problem.block(b)
+            bodies = problem.blocks.block(a), problem.blocks.block(b)
             i, j = (self.number[body] for body in bodies)
             found = self.possible.get((min(i, j), max(i, j), a, b))
             demand(found and bodies not in self.of, "these are no neighbours in a row:", a, b)
@@ -147,7 +147,7 @@ class Rows:
         demand(any(max(abs(v - Fraction(w)) for v, w in zip(along, axis)) <= alike for axis, alike in self.directions(a, b)) and
                abs(along[0] ** 2 + along[1] ** 2 - 1) <= ALIKE, "that is not the direction of the row:", a, b)
         sides = [[(Fraction(p[0]) - self.origin[0]) * along[0] + (Fraction(p[1]) - self.origin[1]) * along[1]
-                  for fid in self.problem.block(k) for polygon in self.problem.standing[fid] for ring in polygon for p in ring]
+                  for fid in self.problem.blocks.block(k) for polygon in self.problem.standing[fid] for ring in polygon for p in ring]
                  for k in (a, b)]
         apart, size = min(sides[1]) - max(sides[0]), max(map(max, sides)) - min(map(min, sides))
         demand(any(abs(Fraction(line["apart"]) - v) <= ALIKE * size for v in self.separations(line, apart)),
@@ -165,8 +165,8 @@ class Rows:
 
     def edge(self, one, other):
         """The line about two bodies, and the direction from the first to the second."""
-        line = self.of.get((one, other))
-        demand(line, "no neighbours in a row:", *one, *other)
+        line = self.of.get(tuple(self.problem.blocks.block(body[0]) for body in (one, other)))
+        demand(line and not any(map(self.problem.is_hidden, (line["a"], line["b"]))), "no neighbours in a row:", *one, *other)
         sign = 1 if line["a"] in one else -1
         return line, tuple(sign * Fraction(v) for v in line["along"])
 
@@ -198,6 +198,8 @@ class Rows:
         """What the springs cost; move: of a feature."""
         total = Fraction(0)
         for line in self.told:
+            if self.problem.is_hidden(line["a"]) or self.problem.is_hidden(line["b"]):
+                continue
             bodies = self.problem.block(line["a"]), self.problem.block(line["b"])
             (x, y), (s, t) = map(Fraction, line["along"]), (Fraction(q) - Fraction(p) for p, q in zip(move(line["a"]), move(line["b"])))
             own = min(sum(Fraction(self.problem.weight(fid)) for fid in body) for body in bodies)

@@ -79,11 +79,17 @@ class Verdict:
 
     def check_row(self, node):
         """The rule of rows for the bodies of the two, as one way."""
-        a, b, way = node["a"], node["b"], node["ways"][0]
+        a, b = node["a"], node["b"]
         bodies = self.body_of(a), self.body_of(b)
-        demand(self.problem.rows and not self.crowded, "a rule without a row")
+        demand(not self.crowded, "a rule without a row")
         demand(self.told["reason"] == "no_room" or (self.told["reason"] == "row" and set(bodies) == set(map(self.body_of, (
             self.told["a"], self.told["b"])))), "a row that the reason does not heed:", a, b)
+        self.check_row_of(node)
+
+    def check_row_of(self, node):
+        a, b, way = node["a"], node["b"], node["ways"][0]
+        bodies = self.body_of(a), self.body_of(b)
+        demand(self.problem.rows, "a rule without a row")
         demand(None not in map(self.problem.body_limit, bodies), "a row without a limit:", a, b)
         n, d = self.problem.rows.rule(*bodies, {self.told["a"], self.told["b"]})
         demand(tuple(map(Fraction, way["n"])) == n and Fraction(way["d"]) <= d, "a way that is not the rule of the row of", a, b)
@@ -112,7 +118,7 @@ class Verdict:
         a barrier with a side, all members of two blocks, or all members of a block and the barriers that are named."""
         a, b = self.told["a"], self.told["b"]
         sided = self.told["reason"] == "side" and self.problem.is_barrier(b)
-        joint = self.told["reason"] == "no_room" or self.crowded
+        joint = self.is_joint()
         demand(sided or joint or self.told["reason"] == "jump", "a length for those without a limit, with the reason",
                self.told["reason"])
         pairs = [(a, b)]
@@ -130,6 +136,9 @@ class Verdict:
             (p, q), owed = (self.problem.whole(x).box for x in (k, l)), self.problem.required(k, l)
             reach = [max(abs(p[x + 2] - q[x]), abs(p[x] - q[x + 2])) + owed for x in (0, 1)]
             demand(within * within >= reach[0] ** 2 + reach[1] ** 2, "farther out the two could still be too near:", k, l)
+
+    def is_joint(self):
+        return self.told["reason"] == "no_room" or self.crowded
 
     def is_listed(self, a, b):
         """In a crowd all pairs have to keep their distance, whether listed or not."""

@@ -29,7 +29,8 @@ sunder_status sunder_i_hiding_begin(const sunder_layer *layer, sunder_i_hiding *
 
 void sunder_i_hiding_free(sunder_i_hiding *hiding)
 {
-    sunder_i_free(hiding->hidden);
+    for (size_t k = 0; k < hiding->sources; k++) sunder_i_proof_free(hiding->source[k].proof);
+    sunder_i_free_all(hiding->hidden, hiding->source);
     sunder_i_clauses_free(&hiding->clauses);
     memset(hiding, 0, sizeof *hiding);
 }
@@ -86,10 +87,28 @@ static bool list_things(const sunder_i_model *model, const sunder_report *report
 
 /* ---- Clauses ----------------------------------------------------------------------------------------------------- */
 
-/* Makes a clause of these things and adds it, if at least one of them may be hidden. */
-static bool add_clause(sunder_i_hiding *h, const uint32_t *number, sunder_i_list *set, bool proved, bool *added)
+/* Notes that conflict k of the report is the source of the clause that was added last. Returns false if memory is
+ * out. */
+static bool note_source(sunder_i_hiding *h, const uint32_t *number, sunder_report *report, size_t k, size_t first,
+                        bool proved)
+{
+    const sunder_conflict *c = &report->conflict[k];
+    if (!sunder_i_reserve(&h->source, &h->source_room, h->sources + 1, sizeof *h->source)) return false;
+    sunder_i_clause_source *source = &h->source[h->sources++];
+    *source = (sunder_i_clause_source){first, number[c->a], number[c->b], c->reason, c->crowded, NULL};
+    if (!h->keep_proofs || !proved || !report->proof || !report->proof[k]) return true;
+    source->proof = report->proof[k];
+    report->proof[k] = NULL;
+    sunder_i_proof_number(source->proof, number);
+    return true;
+}
+
+/* Makes a clause of these things, because of conflict k, and adds it, if at least one of them may be hidden. */
+static bool add_clause(sunder_i_hiding *h, const uint32_t *number, sunder_report *report, size_t k, sunder_i_list *set,
+                       bool proved, bool *added)
 {
     sunder_i_list item = {0};
+    const size_t first = h->clauses.items;
     size_t members = 0;
     bool ok = true;
     for (size_t m = 0; m < set->n; m++) set->item[m] = number[set->item[m]];
@@ -102,8 +121,8 @@ static bool add_clause(sunder_i_hiding *h, const uint32_t *number, sunder_i_list
         if (!others) members = item.n;
     }
     *added = false;
-    if (ok && members)
-        ok = sunder_i_clauses_add(&h->clauses, item.item, members, item.n - members, proved, added);
+    if (ok && members) ok = sunder_i_clauses_add(&h->clauses, item.item, members, item.n - members, proved, added);
+    if (ok && *added) ok = note_source(h, number, report, k, first, proved);
     sunder_i_free(item.item);
     return ok;
 }
@@ -112,8 +131,8 @@ static bool add_clause(sunder_i_hiding *h, const uint32_t *number, sunder_i_list
 static bool counts(const sunder_conflict *c) { return !c->inside_block && c->reason != SUNDER_REASON_KEPT; }
 
 /* Adds the clauses of the conflicts that are proved. */
-static bool add_proved(sunder_i_hiding *h, const sunder_i_model *model, const uint32_t *number,
-                       const sunder_report *report, bool *any)
+static bool add_proved(sunder_i_hiding *h, const sunder_i_model *model, const uint32_t *number, sunder_report *report,
+                       bool *any)
 {
     sunder_i_list set = {0};
     bool ok = true;
@@ -121,7 +140,7 @@ static bool add_proved(sunder_i_hiding *h, const sunder_i_model *model, const ui
         bool proved, added = false;
         if (!counts(&report->conflict[k])) continue;
         ok = list_things(model, report, k, &proved, &set);
-        if (ok && proved) ok = add_clause(h, number, &set, true, &added);
+        if (ok && proved) ok = add_clause(h, number, report, k, &set, true, &added);
         *any = *any || added;
     }
     sunder_i_free(set.item);
@@ -131,7 +150,7 @@ static bool add_proved(sunder_i_hiding *h, const sunder_i_model *model, const ui
 /* Adds tentative clauses: of each set of conflicts that features connect only that of the first one, since its hidden
  * feature may solve the others. */
 static bool add_tentative(sunder_i_hiding *h, const sunder_i_model *model, const uint32_t *number,
-                          const sunder_report *report, bool *any)
+                          sunder_report *report, bool *any)
 {
     sunder_i_list set = {0};
     uint32_t *parent = sunder_i_alloc(model->things, sizeof *parent);
@@ -146,7 +165,7 @@ static bool add_tentative(sunder_i_hiding *h, const sunder_i_model *model, const
         bool proved, added = false;
         const uint32_t root = sunder_i_union_find(parent, (uint32_t)report->conflict[k].a);
         if (!counts(&report->conflict[k]) || done[root]) continue;
-        ok = list_things(model, report, k, &proved, &set) && add_clause(h, number, &set, proved, &added);
+        ok = list_things(model, report, k, &proved, &set) && add_clause(h, number, report, k, &set, proved, &added);
         done[root] = ok && added;
         *any = *any || done[root];
     }
@@ -157,7 +176,7 @@ static bool add_tentative(sunder_i_hiding *h, const sunder_i_model *model, const
 /* A layout is first computed without effort, which finds most clauses; then with the caller's. Tentative clauses are
  * added only if no other is found. */
 sunder_status sunder_i_hiding_learn(sunder_i_hiding *hiding, const sunder_i_model *model, const uint32_t *number,
-                                    const sunder_report *report, bool *again, sunder_error *err)
+                                    sunder_report *report, bool *again, sunder_error *err)
 {
     hiding->rounds++;
     *again = false;

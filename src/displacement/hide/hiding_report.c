@@ -1,6 +1,7 @@
-/* What is proved of a choice: the best choice for the proved clauses alone is at least as good as any choice without a
- * conflict. Where the two hide the same weight of each class the choice is proved to be the best. */
+/* What is proved of a choice: no choice without a conflict is better than the bound, which rests on the proved clauses
+ * alone. Where the choice hides the same weight of each class as the bound says, it is proved to be the best. */
 #include "displacement/hide/hiding.h"
+#include "displacement/hide/hiding_bound.h"
 #include "displacement/hide/tuning.h"
 
 #include "base/union_find.h"
@@ -31,28 +32,27 @@ static uint32_t *find_roots(const sunder_i_hiding *h)
 /* What is known of the component that has its root at a feature. */
 enum { NO_COMPONENT, BEST, UNPROVED };
 
-/* Finds the components. One is unproved if a best choice for its proved clauses is not known. */
-static void mark_components(const sunder_i_hiding *h, const uint32_t *root, const bool *sure, unsigned char *state)
-{
-    for (size_t k = 0; k < h->clauses.n; k++) {
-        const sunder_i_clause *c = &h->clauses.clause[k];
-        const uint32_t first = h->clauses.item[c->first];
-        unsigned char *at = &state[root[first]];
-        if (*at == NO_COMPONENT) *at = BEST;
-        if (c->proved && !sure[first]) *at = UNPROVED;
-    }
-}
-
-/* Components in which the choice hides other weights than the best one for the proved clauses are unproved. list: room
- * for all features. */
-static void compare_choices(const sunder_i_hiding *h, const uint32_t *root, const bool *best, difference *list,
-                            unsigned char *state)
+/* Lists what is hidden beyond the bound, by component and class. list: room for all hidden features and weights of
+ * bounds. Returns their number. */
+static size_t list_differences(const sunder_i_hiding *h, const uint32_t *root, const sunder_i_hiding_bound *bound,
+                               difference *list)
 {
     size_t n = 0;
     for (uint32_t f = 0; f < h->n; f++)
-        if (h->hidden[f] != best[f])
-            list[n++] =
-                (difference){root[f], h->cost[f].hierarchy, h->hidden[f] ? h->cost[f].weight : -h->cost[f].weight};
+        if (h->hidden[f]) list[n++] = (difference){root[f], h->cost[f].hierarchy, h->cost[f].weight};
+    for (size_t t = 0; t < bound->trees; t++)
+        for (size_t k = 0; k < bound->tree[t].bounds; k++) {
+            const sunder_hiding_share *of = &bound->share[bound->tree[t].bound + k];
+            list[n++] = (difference){root[bound->tree[t].feature], of->hierarchy, -of->weight};
+        }
+    return n;
+}
+
+/* Finds the components, and those in which the choice hides as much as the bound says, in each class. */
+static void mark_components(const sunder_i_hiding *h, const uint32_t *root, difference *list, size_t n,
+                            unsigned char *state)
+{
+    for (size_t k = 0; k < h->clauses.n; k++) state[root[h->clauses.item[h->clauses.clause[k].first]]] = BEST;
     if (n) qsort(list, n, sizeof *list, sunder_i_by_id_pair);
     for (size_t k = 0, end; k < n; k = end) {
         int64_t sum = 0;
@@ -61,14 +61,57 @@ static void compare_choices(const sunder_i_hiding *h, const uint32_t *root, cons
     }
 }
 
+static int by_class(const void *a, const void *b)
+{
+    const sunder_hiding_class *p = a, *q = b;
+    return p->hierarchy < q->hierarchy ? -1 : p->hierarchy > q->hierarchy;
+}
+
+/* Sums up what is hidden, and the bound, by class. Returns false if memory is out. */
+static bool report_classes(const difference *list, size_t n, sunder_report *report)
+{
+    sunder_hiding_class *class = sunder_i_alloc(n, sizeof *class);
+    size_t classes = 0;
+    if (!class) return false;
+    for (size_t k = 0; k < n; k++) {
+        const int64_t weight = list[k].weight;
+        class[k] = weight > 0 ? (sunder_hiding_class){list[k].hierarchy, 1, weight, 0}
+                              : (sunder_hiding_class){list[k].hierarchy, 0, 0, -weight};
+    }
+    if (n) qsort(class, n, sizeof *class, by_class);
+    for (size_t k = 0; k < n; k++) {
+        if (classes == 0 || class[classes - 1].hierarchy != class[k].hierarchy) {
+            class[classes++] = class[k];
+            continue;
+        }
+        class[classes - 1].hidden += class[k].hidden;
+        class[classes - 1].weight += class[k].weight;
+        class[classes - 1].least += class[k].least;
+    }
+    report->hiding_class = class;
+    report->hiding_classes = classes;
+    for (size_t k = 0; k < classes; k++) {
+        report->hiding.hidden += class[k].hidden;
+        report->hiding.weight += class[k].weight;
+        report->hiding.least += class[k].least;
+    }
+    return true;
+}
+
 static int by_size(const void *a, const void *b)
 {
     const size_t p = *(const size_t *)a, q = *(const size_t *)b;
     return p < q ? -1 : p > q;
 }
 
+static int by_first(const void *a, const void *b)
+{
+    const size_t p = *(const size_t *)a, q = ((const sunder_i_clause_source *)b)->first;
+    return p < q ? -1 : p > q;
+}
+
 /* Copies the clauses to the report, of each the members and then all things. Returns false if memory is out. */
-static bool report_clauses(const sunder_i_hiding *h, sunder_report *report)
+static bool report_clauses(sunder_i_hiding *h, sunder_report *report)
 {
     const sunder_i_clauses *c = &h->clauses;
     size_t *number = sunder_i_alloc(2 * c->items, sizeof *number);
@@ -81,20 +124,20 @@ static bool report_clauses(const sunder_i_hiding *h, sunder_report *report)
         for (size_t m = 0; m < from->n; m++) number[m] = c->item[from->first + m];
         for (size_t m = 0; m < from->n + from->others; m++) thing[m] = c->item[from->first + m];
         qsort(thing, from->n + from->others, sizeof *thing, by_size);
-        report->clause[k] = (sunder_clause){number, thing, from->n, from->n + from->others, from->proved};
+        sunder_i_clause_source *source = bsearch(&from->first, h->source, h->sources, sizeof *source, by_first);
+        report->clause[k] =
+            (sunder_clause){number,    thing,     from->n,        from->n + from->others, from->proved,
+                            source->a, source->b, source->reason, source->crowded,        source->proof};
+        source->proof = NULL;
         number = thing + from->n + from->others;
     }
     return true;
 }
 
-/* Fills in the counts that need no search. */
-static void count_hidden(const sunder_i_hiding *h, const bool *best, const unsigned char *state,
-                         sunder_hiding_summary *out)
+/* Fills in the counts of clauses and components. */
+static void count_clauses(const sunder_i_hiding *h, const unsigned char *state, sunder_hiding_summary *out)
 {
     for (size_t f = 0; f < h->n; f++) {
-        out->hidden += h->hidden[f];
-        out->weight += h->hidden[f] ? h->cost[f].weight : 0;
-        out->least += best[f] ? h->cost[f].weight : 0;
         out->components += state[f] != NO_COMPONENT;
         out->components_best += state[f] == BEST;
     }
@@ -106,22 +149,37 @@ static void count_hidden(const sunder_i_hiding *h, const bool *best, const unsig
     out->rounds = h->rounds;
 }
 
-sunder_status sunder_i_hiding_report(const sunder_i_hiding *hiding, sunder_report *report, sunder_error *err)
+/* Compares the choice with the bound. Returns false if memory is out. */
+static bool compare_with_bound(const sunder_i_hiding *h, const sunder_i_hiding_bound *bound, sunder_report *report)
 {
-    const size_t n = hiding->n;
-    bool *best = sunder_i_alloc(n, sizeof *best), *sure = sunder_i_alloc(n, sizeof *sure);
-    unsigned char *state = sunder_i_calloc(n, sizeof *state);
-    difference *list = sunder_i_alloc(n, sizeof *list);
-    uint32_t *root = find_roots(hiding);
-    const bool ok = best && sure && state && list && root && report_clauses(hiding, report);
-    sunder_status status = ok ? SUNDER_OK : sunder_i_failure_cause(err);
-    sunder_i_cover_result result = {.hidden = best, .sure = sure};
-    if (!status) status = sunder_i_cover_find(&hiding->clauses, true, hiding->cost, n, COVER_EFFORT, &result, err);
-    if (!status) {
-        mark_components(hiding, root, sure, state);
-        compare_choices(hiding, root, best, list, state);
-        count_hidden(hiding, best, state, &report->hiding);
+    uint32_t *root = find_roots(h);
+    unsigned char *state = sunder_i_calloc(h->n, sizeof *state);
+    difference *list = sunder_i_alloc(h->n + bound->shares, sizeof *list);
+    bool ok = root && state && list;
+    if (ok) {
+        const size_t n = list_differences(h, root, bound, list);
+        mark_components(h, root, list, n, state);
+        count_clauses(h, state, &report->hiding);
+        ok = report_classes(list, n, report);
     }
-    sunder_i_free_all(best, sure, state, list, root);
+    sunder_i_free_all(root, state, list);
+    return ok;
+}
+
+sunder_status sunder_i_hiding_report(sunder_i_hiding *hiding, sunder_report *report, sunder_error *err)
+{
+    bool *best = sunder_i_alloc(hiding->n, sizeof *best);
+    sunder_i_cover_result result = {.hidden = best};
+    sunder_i_hiding_bound bound = {0};
+    sunder_status status = best ? SUNDER_OK : sunder_i_failure_cause(err);
+    if (!status)
+        status = sunder_i_cover_find(&hiding->clauses, true, hiding->cost, hiding->n, COVER_EFFORT, &result, err);
+    if (!status)
+        status = sunder_i_hiding_bound_find(&hiding->clauses, hiding->cost, hiding->n, best, BOUND_EFFORT, &bound, err);
+    if (!status && !(compare_with_bound(hiding, &bound, report) && report_clauses(hiding, report)))
+        status = sunder_i_failure_cause(err);
+    report->hiding_trees =
+        (sunder_hiding_trees){bound.tree, bound.node, bound.share, bound.trees, bound.nodes, bound.shares};
+    sunder_i_free(best);
     return status;
 }

@@ -7,5 +7,7 @@
 
 /* The search for the best choice of a component ends after COVER_EFFORT nodes, and one for each of its features. */
 #define COVER_EFFORT 100000u
+/* The tree of a component's bound is divided BOUND_EFFORT times, and twice for each of its features. */
+#define BOUND_EFFORT 1000u
 
 #endif

@@ -41,7 +41,7 @@ static void turn_conflict(sunder_conflict *c)
     }
 }
 
-static void number_proof(sunder_proof *proof, const uint32_t *number)
+void sunder_i_proof_number(sunder_proof *proof, const uint32_t *number)
 {
     sunder_proof_node *node = (sunder_proof_node *)proof->node; /* the report owns it */
     for (size_t k = 0; k < proof->nodes; k++) {
@@ -67,7 +67,7 @@ static sunder_status number_conflicts(sunder_report *report, const uint32_t *num
         for (size_t i = 0; i < c->n_blocked_by; i++) blocker[i] = number[blocker[i]];
         if (c->need_gone != SIZE_MAX) c->need_gone = number[c->need_gone];
         if (c->n_blocked_by) qsort(blocker, c->n_blocked_by, sizeof *blocker, by_number);
-        if (list[k].proof) number_proof(list[k].proof, number);
+        if (list[k].proof) sunder_i_proof_number(list[k].proof, number);
     }
     if (n) qsort(list, n, sizeof *list, by_pair);
     for (size_t k = 0; k < n; k++) {

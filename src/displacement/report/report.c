@@ -117,8 +117,11 @@ void sunder_report_free(sunder_report *report)
 {
     if (!report) return;
     sunder_i_report_forget_conflicts(report);
+    for (size_t k = 0; report->clause && k < report->hiding.clauses; k++)
+        sunder_i_proof_free((sunder_proof *)report->clause[k].proof);
     sunder_i_free_all(report->move, report->status, report->block, report->tight, report->bound_pair, report->clause,
-                      report->clause_number);
+                      report->clause_number, report->hiding_class, (void *)report->hiding_trees.tree,
+                      (void *)report->hiding_trees.node, (void *)report->hiding_trees.share);
     for (size_t k = 0; k < report->bound_trees; k++) sunder_i_bound_tree_free(&report->bound_tree[k]);
     sunder_row_list_free(&report->row_list);
     sunder_i_free_all(report->bound_tree, report->push, report->row_pair, report->row_reach, report->world,
@@ -209,3 +212,11 @@ const sunder_clause *sunder_report_clauses(const sunder_report *report, size_t *
     *n = report->hiding.clauses;
     return report->clause;
 }
+
+const sunder_hiding_class *sunder_report_hiding_classes(const sunder_report *report, size_t *n)
+{
+    *n = report->hiding_classes;
+    return report->hiding_class;
+}
+
+const sunder_hiding_trees *sunder_report_hiding_trees(const sunder_report *report) { return &report->hiding_trees; }

@@ -48,13 +48,16 @@ struct sunder_report {
     size_t bound_trees;
     sunder_push *push;
     size_t pushes;
-    sunder_row_pair *row_pair;
-    size_t row_pairs;
+    sunder_row_pair *row_pair; /* [row_pairs], and after these [hidden_row_pairs] with a hidden end */
+    size_t row_pairs, hidden_row_pairs;
     sunder_i_row_figures row_figures;
     sunder_row_list row_list;
     sunder_hiding_summary hiding;
     sunder_clause *clause; /* [hiding.clauses] their members and things are in clause_number */
     size_t *clause_number;
+    sunder_hiding_class *hiding_class;
+    size_t hiding_classes;
+    sunder_hiding_trees hiding_trees;
     /* The following are NULL unless the worlds (the parts of the layer that did not influence each other) are
      * wanted. */
     sunder_world *world;
@@ -96,6 +99,8 @@ void sunder_i_count(sunder_conflict_counts *counts, const sunder_conflict *confl
 /* Converts the report from the internal order of features to the caller's: number[k] is the caller's number of feature
  * k. */
 sunder_status sunder_i_report_renumber(sunder_report *report, const uint32_t *number, sunder_error *err);
+/* The same for a proof. */
+void sunder_i_proof_number(sunder_proof *proof, const uint32_t *number);
 
 /* ---- remaining_conflicts.c --------------------------------------------------------------------------------------- */
 

@@ -222,13 +222,16 @@ sunder_status sunder_i_report_row_pairs(sunder_report *report, const sunder_i_mo
 {
     report->row_figures =
         (sunder_i_row_figures){model->rules.kink, {model->rules.row_stiffness[0], model->rules.row_stiffness[1]}};
-    if (rows->edges == 0) return SUNDER_OK;
-    report->row_pair = sunder_i_alloc(rows->edges, sizeof *report->row_pair);
+    const size_t n = rows->edges + rows->hidden;
+    if (n == 0) return SUNDER_OK;
+    report->row_pair = sunder_i_alloc(n, sizeof *report->row_pair);
     if (!report->row_pair) return sunder_i_failure_cause(err);
-    for (size_t e = 0; e < rows->edges; e++) {
+    report->row_pairs = rows->edges;
+    report->hidden_row_pairs = rows->hidden;
+    for (size_t e = 0; e < n; e++) {
         const sunder_i_row_edge *edge = &rows->edge[e];
         const double *s = model->move + 2 * (size_t)edge->i, *t = model->move + 2 * (size_t)edge->j;
-        report->row_pair[report->row_pairs++] =
+        report->row_pair[e] =
             (sunder_row_pair){.feature = {edge->f, edge->g},
                               .side = {edge->side[0], edge->side[1]},
                               .along = {edge->along[0], edge->along[1]},
@@ -266,7 +269,8 @@ static int by_feature_pair(const void *x, const void *y)
 
 sunder_status sunder_i_report_number_rows(sunder_report *report, const uint32_t *number, sunder_error *err)
 {
-    for (size_t k = 0; k < report->row_pairs; k++) {
+    const size_t n = report->row_pairs, hidden = report->hidden_row_pairs;
+    for (size_t k = 0; k < n + hidden; k++) {
         sunder_row_pair *p = &report->row_pair[k];
         for (int c = 0; c < 2; c++) {
             p->feature[c] = number[p->feature[c]];
@@ -275,12 +279,19 @@ sunder_status sunder_i_report_number_rows(sunder_report *report, const uint32_t 
         }
         if (p->feature[0] > p->feature[1]) *p = turned(p);
     }
-    if (report->row_pairs) qsort(report->row_pair, report->row_pairs, sizeof *report->row_pair, by_feature_pair);
+    if (n) qsort(report->row_pair, n, sizeof *report->row_pair, by_feature_pair);
+    if (hidden) qsort(report->row_pair + n, hidden, sizeof *report->row_pair, by_feature_pair);
     return make_rows(report->row_pair, report->row_pairs, &report->row_figures, &report->row_list, &report->summary,
                      err);
 }
 
 /* ---- Getters ----------------------------------------------------------------------------------------------------- */
+
+const sunder_row_pair *sunder_report_hidden_row_pairs(const sunder_report *report, size_t *n)
+{
+    *n = report->hidden_row_pairs;
+    return report->row_pair + report->row_pairs;
+}
 
 const sunder_row *sunder_report_rows(const sunder_report *report, size_t *n)
 {

@@ -220,12 +220,21 @@ sunder_status sunder_i_rows_find(const sunder_i_model *model, sunder_i_rows *row
                                                   : find_rows(model, rows, err);
 }
 
-void sunder_i_rows_forget_hidden(sunder_i_rows *rows, const sunder_i_model *model)
+sunder_status sunder_i_rows_forget_hidden(sunder_i_rows *rows, const sunder_i_model *model, sunder_error *err)
 {
+    sunder_i_row_edge *edge = sunder_i_alloc(rows->edges, sizeof *edge);
+    if (!edge) return sunder_i_failure_cause(err);
     size_t n = 0;
-    for (size_t k = 0; k < rows->edges; k++)
-        if (model->present[rows->edge[k].f] && model->present[rows->edge[k].g]) rows->edge[n++] = rows->edge[k];
-    rows->edges = n;
+    for (int hidden = 0; hidden < 2; hidden++) {
+        for (size_t k = 0; k < rows->edges; k++)
+            if ((model->present[rows->edge[k].f] && model->present[rows->edge[k].g]) != hidden)
+                edge[n++] = rows->edge[k];
+        if (!hidden) rows->hidden = rows->edges - n;
+    }
+    rows->edges -= rows->hidden;
+    sunder_i_free(rows->edge);
+    rows->edge = edge;
+    return SUNDER_OK;
 }
 
 void sunder_i_rows_free(sunder_i_rows *rows)

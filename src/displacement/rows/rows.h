@@ -20,8 +20,8 @@ typedef struct sunder_i_row_edge {
 
 /* The rows of a layer, as the pairs of neighbours in them. At each side of a body there is at most one edge. */
 typedef struct sunder_i_rows {
-    sunder_i_row_edge *edge; /* [edges] sorted by (i, j) */
-    size_t edges;
+    sunder_i_row_edge *edge; /* [edges] sorted by (i, j); after these [hidden] those with a hidden end */
+    size_t edges, hidden;
     /* [bodies] The edges of a body are decided by what meets this box, if blocks are known as a whole: by all that is
      * within ROW_REACH gaps of the body, of the neighbours that it has chosen on its sides, and of those that these
      * have chosen; of given rows, by the row. NULL unless the model records reads. */
@@ -33,8 +33,8 @@ typedef struct sunder_i_rows {
  * sunder_i_rows_take_given() does. */
 sunder_status sunder_i_rows_find(const sunder_i_model *model, sunder_i_rows *rows, sunder_error *err);
 void sunder_i_rows_free(sunder_i_rows *rows);
-/* Removes the edges at features that are not present any more. */
-void sunder_i_rows_forget_hidden(sunder_i_rows *rows, const sunder_i_model *model);
+/* Puts the edges at features that are not present any more after the others. To be called once. */
+sunder_status sunder_i_rows_forget_hidden(sunder_i_rows *rows, const sunder_i_model *model, sunder_error *err);
 
 /* ---- given_rows.c ------------------------------------------------------------------------------------------------ */
 

@@ -1,0 +1,75 @@
+/* proof_hiding.c: the lines of --proof about what is hidden: the clauses with their proofs, and the trees of the bound.
+ * Levels of a feature are 0 as given, and 1 hidden. */
+#include "layer/proof_lines.h"
+
+void gis_proof_clause(gis_proof_lines *lines, const sunder_clause *clause)
+{
+    gis_json *json = &lines->json;
+    gis_json_key(json, "members");
+    gis_json_open(json, '[');
+    for (size_t m = 0; m < clause->members; m++) {
+        gis_json_open(json, '[');
+        gis_proof_thing(lines, NULL, clause->member[m]);
+        gis_json_size(json, 0);
+        gis_json_close(json, ']');
+    }
+    gis_json_close(json, ']');
+    gis_proof_thing(lines, "a", clause->a < clause->b ? clause->a : clause->b);
+    gis_proof_thing(lines, "b", clause->a < clause->b ? clause->b : clause->a);
+    gis_proof_reason(lines, clause->reason, clause->crowded);
+    gis_proof_nodes(lines, clause->proof);
+}
+
+static void put_weight(gis_json *json, const sunder_hiding_share *share)
+{
+    gis_proof_class(json, share->hierarchy);
+    gis_json_signed(json, share->weight);
+    gis_json_close(json, ']');
+}
+
+static void put_shares(gis_json *json, const sunder_hiding_share *share, size_t n, const size_t *clause)
+{
+    gis_json_key(json, "shares");
+    gis_json_open(json, '[');
+    for (size_t k = 0; k < n; k++) {
+        gis_json_open(json, '[');
+        gis_json_size(json, clause[share[k].clause]);
+        put_weight(json, &share[k]);
+    }
+    gis_json_close(json, ']');
+}
+
+static void put_node(gis_proof_lines *lines, const sunder_hiding_node *node, const sunder_hiding_share *share,
+                     const size_t *clause)
+{
+    gis_json *json = &lines->json;
+    gis_json_open(json, '{');
+    if (node->kind == SUNDER_HIDING_NODE_SPLIT) {
+        gis_proof_thing(lines, "split", node->feature);
+        gis_json_put_size(json, "level", node->level);
+    } else if (node->kind == SUNDER_HIDING_NODE_UNMET) {
+        gis_json_put_size(json, "unmet", clause[node->clause]);
+    } else {
+        put_shares(json, share + node->share, node->shares, clause);
+    }
+    gis_json_close(json, '}');
+}
+
+void gis_proof_choice(gis_proof_lines *lines, size_t k, const size_t *clause)
+{
+    const sunder_hiding_trees *trees = sunder_report_hiding_trees(lines->report);
+    const sunder_hiding_tree *tree = &trees->tree[k];
+    gis_json *json = &lines->json;
+    gis_json_key(json, "bound");
+    gis_json_open(json, '[');
+    for (size_t i = tree->bound; i < tree->bound + tree->bounds; i++) {
+        gis_json_open(json, '[');
+        put_weight(json, &trees->share[i]);
+    }
+    gis_json_close(json, ']');
+    gis_json_key(json, "nodes");
+    gis_json_open(json, '[');
+    for (size_t i = tree->node; i < tree->node + tree->nodes; i++)
+        put_node(lines, &trees->node[i], trees->share, clause);
+    gis_json_close(json, ']');
+}

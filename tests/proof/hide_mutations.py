@@ -1,0 +1,233 @@
+"""The changes that mutations.py makes to what a file says about hidden features. Each function returns False if the file has nothing of its
+kind, otherwise the words of the expected refusal."""
+import copy
+
+FALLS_SHORT, TOO_MUCH = "prove less than the bound", "more than what"
+
+
+def with_key(lines, key):
+    return [line for line in lines if key in line]
+
+
+def shares(lines):
+    return [share for line in with_key(lines, "choice") for node in line["nodes"] for share in node.get("shares", ())]
+
+
+def leave_member_out(lines):
+    """A clause without a feature that its proof names."""
+    for line in with_key(lines, "clause"):
+        if len(line["members"]) > 1:
+            line["members"].pop()
+            return ("is hidden",)
+    return False
+
+
+def add_never_hidden(lines):
+    """A member that is never hidden: of class 0, or none at all."""
+    for line in with_key(lines, "clause"):
+        line["members"].append([-5, 0])
+        return ("never hidden",)
+    return False
+
+
+def other_level(lines):
+    for line in with_key(lines, "clause"):
+        line["members"][0][1] = 1
+        return ("the level",)
+    return False
+
+
+def member_twice(lines):
+    for line in with_key(lines, "clause"):
+        line["members"].append(line["members"][0])
+        return ("a member is there twice",)
+    return False
+
+
+def clause_without_proof(lines):
+    for line in with_key(lines, "clause"):
+        if line["reason"] == "no_room":
+            del line["proof"]
+            return ("no proof of a clause",)
+    return False
+
+
+def raise_share(lines):
+    for share in shares(lines):
+        share[2] += 1
+        return (TOO_MUCH,)
+    return False
+
+
+def lower_share(lines):
+    for share in shares(lines):
+        share[2] -= 1
+        return (FALLS_SHORT,)
+    return False
+
+
+def pull_share(lines):
+    for share in shares(lines):
+        share[2] *= -1
+        return ("less than nothing",)
+    return False
+
+
+def share_twice(lines):
+    for line in with_key(lines, "choice"):
+        for node in line["nodes"]:
+            if node.get("shares"):
+                node["shares"].append(node["shares"][0])
+                return ("a share that is there twice",)
+    return False
+
+
+def clause_twice(lines):
+    """A clause doubled, with a share of its own, so that a feature pays twice."""
+    clauses, found = with_key(lines, "clause"), shares(lines)
+    if not found:
+        return False
+    double = copy.deepcopy(clauses[found[0][0]])
+    double["clause"] = len(clauses)
+    lines.insert(lines.index(clauses[-1]) + 1, double)
+    lines[0]["hide"]["clauses"] += 1
+    node = next(n for line in with_key(lines, "choice") for n in line["nodes"] if n.get("shares"))
+    node["shares"].append([double["clause"], *node["shares"][0][1:]])
+    return (TOO_MUCH,)
+
+
+def other_class(lines):
+    """A share of another class, which a member does not have."""
+    for share in shares(lines):
+        if share[1] is None or share[1] > 1:
+            share[1] = 1
+            return (TOO_MUCH,)
+    return False
+
+
+def higher_class(lines):
+    """The bound of what is hidden, of a more important class."""
+    for line in lines[:1]:
+        for weight in line.get("hide", {}).get("bound", ()):
+            if weight[0] is None or weight[0] > 1:
+                weight[0] = 0
+                return ("prove less than the bound of what is hidden",)
+    return False
+
+
+def raise_claim(lines):
+    for line in lines[:1]:
+        for weight in line.get("hide", {}).get("bound", ()):
+            weight[1] += 1
+            return ("prove less than the bound of what is hidden",)
+    return False
+
+
+def raise_tree(lines):
+    for line in with_key(lines, "choice"):
+        for weight in line["bound"]:
+            weight[1] += 1
+            return (FALLS_SHORT,)
+    return False
+
+
+def drop_leaf(lines):
+    for line in with_key(lines, "choice"):
+        if "split" in line["nodes"][0]:
+            line["nodes"].pop()
+            return ("leaves are missing",)
+    return False
+
+
+def leaf_more(lines):
+    for line in with_key(lines, "choice"):
+        line["nodes"].append(copy.deepcopy(line["nodes"][-1]))
+        return ("after the last leaf",)
+    return False
+
+
+def split_nothing(lines):
+    """A division that leaves no choice on one side."""
+    for line in with_key(lines, "choice"):
+        for node in line["nodes"]:
+            if "split" in node:
+                node["level"] = 2
+                return ("no level",)
+    return False
+
+
+def call_unmet(lines):
+    """A leaf that says a clause has no free member, though it has."""
+    for line in with_key(lines, "choice"):
+        for node in line["nodes"]:
+            if node.get("shares"):
+                k = node.pop("shares")[0][0]
+                node["unmet"] = k
+                return ("may be met",)
+    return False
+
+
+def met_clause(lines):
+    """A share of a clause that a hidden feature meets already."""
+    clauses = with_key(lines, "clause")
+    for line in with_key(lines, "choice"):
+        split = line["nodes"][0].get("split")
+        met = [k for k, c in enumerate(clauses) if split in [fid for fid, _ in c["members"]]]
+        if met:
+            line["nodes"][1].setdefault("shares", []).append([met[0], 1, 1])
+            return "shares" in line["nodes"][1] and ("a clause that is met",)
+    return False
+
+
+def tree_twice(lines):
+    trees = with_key(lines, "choice")
+    if not trees:
+        return False
+    lines.append({**copy.deepcopy(trees[0]), "choice": len(trees)})
+    lines[0]["hide"]["choices"] += 1
+    return ("two trees are about one feature",)
+
+
+def hide_twice(lines):
+    hidden = with_key(lines, "hidden")
+    if not hidden:
+        return False
+    lines.insert(lines.index(hidden[-1]) + 1, {"hidden": len(hidden), "fid": hidden[0]["fid"]})
+    lines[0]["hide"]["hidden"] += 1
+    return ("hidden twice",)
+
+
+def hide_important(lines):
+    """Hides a feature of class 0: the others would have room."""
+    hidden, members = with_key(lines, "hidden"), {fid for line in with_key(lines, "clause") for fid, _ in line["members"]}
+    visible = [b["features"][0]["fid"] for line in with_key(lines, "group") for b in line["bodies"] if "features" in b]
+    for fid in [fid for fid in visible if fid not in members] if hidden else ():
+        lines.insert(lines.index(hidden[-1]) + 1, {"hidden": len(hidden), "fid": fid})
+        lines[0]["hide"]["hidden"] += 1
+        return ("never hidden",)
+    return False
+
+
+def show_hidden(lines):
+    hidden = with_key(lines, "hidden")
+    if not hidden:
+        return False
+    lines.remove(hidden[-1])
+    lines[0]["hide"]["hidden"] -= 1
+    return ("hides other features", "is no block")
+
+
+def clause_of_one_block(lines):
+    for line in with_key(lines, "clause"):
+        line["b"] = line["a"]
+        return ("a conflict of",)
+    return False
+
+
+HIDES = {"member left out": leave_member_out, "member never hidden": add_never_hidden, "level": other_level, "member twice": member_twice,
+         "clause without proof": clause_without_proof, "raised share": raise_share, "lowered share": lower_share, "share below 0": pull_share,
+         "share twice": share_twice, "clause twice": clause_twice, "share of another class": other_class, "bound of another class": higher_class,
+         "raised bound of hidden": raise_claim, "raised tree of hidden": raise_tree, "dropped leaf of hidden": drop_leaf,
+         "leaf more": leaf_more, "split at no level": split_nothing, "called unmet": call_unmet, "share of a met clause": met_clause,
+         "tree of hidden twice": tree_twice, "hidden twice": hide_twice, "hidden important": hide_important, "hidden shown": show_hidden,
+         "clause of one": clause_of_one_block}

@@ -1,0 +1,212 @@
+"""What a file of --proof says about hidden features (docs/PROOF.md, section 6): which are hidden, the clauses, and the bound.
+
+A feature has the levels 0, as given, and 1, hidden. What it costs to hide is a whole number of its class; costs are vectors {class: number},
+compared in the order of the classes.
+"""
+import math
+from fractions import Fraction
+
+import decided
+from form import NotRead, demand, index
+from geopackage import number_of
+from verdicts import Verdict
+
+LAST, UNIT, MOST = (1 << 32) - 1, 1000.0, 1 << 40
+HIDDEN = 1
+
+
+def plus(p, q, sign=1):
+    return {c: p.get(c, 0) + sign * q.get(c, 0) for c in {*p, *q}}
+
+
+def is_less(p, q):
+    """Does the first class in which the two differ have less in p?"""
+    return next((p.get(c, 0) < q.get(c, 0) for c in sorted({*p, *q}) if p.get(c, 0) != q.get(c, 0)), False)
+
+
+def vector(told):
+    found = {}
+    for c, weight in told:
+        c = LAST if c is None else c
+        demand(c not in found, "a class that is there twice:", c)
+        found[c] = weight
+    return found
+
+
+class Clause(Verdict):
+    """A proof that all members, beside the features of class 0 and the barriers, cannot be without a conflict together. So no pair is
+    listed, and what is asked of a pair may be less than that it has no conflict, and never more."""
+
+    def __init__(self, problem, told):
+        super().__init__(problem, {**told, "blocked_by": []})
+        self.alone = self.crowded = False
+
+    def check(self):
+        seen, todo = set(), [(0, ())]
+        while todo:
+            at, way_here = todo.pop()
+            index(at, len(self.nodes), "node")
+            demand(at not in seen, "a node has two parents:", at)
+            seen.add(at)
+            node = self.nodes[at]
+            if "ways" not in node:
+                demand("still" not in node, "places of doubles, which a block without some of its members does not have")
+                self.check_leaf(node, way_here)
+                continue
+            self.check_question(node)
+            todo += [(w["next"], (*way_here, (at, k))) for k, w in enumerate(node["ways"])]
+
+    def is_joint(self):
+        return self.told["reason"] == "no_room" or self.told.get("crowded", False)
+
+    def is_listed(self, a, b):
+        return False
+
+    def check_row(self, node):
+        self.check_row_of(node)
+
+    def stood(self, a, b):
+        """A pair that is held to what it had at the start: if its interiors met it has to do better, and if not, as long as it owes more."""
+        square, depth, _ = self.problem.how_it_stood(a, b)
+        if square < 0:
+            demand(depth is not None, "held to a depth that is not known:", a, b)
+            return True, depth
+        demand(square <= Fraction(self.problem.required(a, b)) ** 2, "more is asked of", a, b, "than they owe")
+        return False, square
+
+
+class Hiding:
+    def __init__(self, problem, options):
+        self.problem, self.field, self.weighting = problem, options.hierarchy_field, options.hide_weight
+        self.hidden, self.clauses, self.total, self.used = [], [], {}, set()
+
+    # ---- What it costs
+
+    def rank(self, fid):
+        """The class; 0: it is never hidden."""
+        problem = self.problem
+        if problem.is_barrier(fid) or fid in problem.skipped:
+            return 0
+        if self.field is None:
+            return 1
+        value = number_of(problem.attributes[fid], self.field)
+        if value is None:
+            return LAST
+        if not (value >= 0 and value == math.floor(value) and value < LAST):
+            raise NotRead(f"the class of {fid} is {value}")
+        return int(value)
+
+    def cost(self, fid, level):
+        if level == 0:
+            return {}
+        area = self.problem.area(fid)
+        weight = {"1": 1.0, "area": area, "sqrt-area": math.sqrt(area)}[self.weighting]
+        return {self.rank(fid): int(max(1, min(round(UNIT * weight), MOST)))}
+
+    # ---- The lines
+
+    def begin(self, head, hidden):
+        """head: `hide` of the first line; hidden: the features that are left out, as the file says."""
+        problem = self.problem
+        demand(len(hidden) == head["hidden"], "lines are missing")
+        demand(len(set(hidden)) == len(hidden), "a feature is hidden twice")
+        for fid in hidden:
+            demand(fid in problem.place and fid not in problem.skipped, "there is no feature", fid)
+            demand(self.rank(fid), fid, "is of a class that is never hidden")
+        self.hidden, self.clauses, self.total, self.used = hidden, [], {}, set()
+        left_out = set(hidden)
+        self.visible = lambda fid: fid not in left_out
+        problem.look_at(self.visible)
+
+    def check_clause(self, told):
+        """Returns the members."""
+        members = [fid for fid, _ in told["members"]]
+        demand(len(set(members)) == len(members), "a member is there twice")
+        for fid, level in told["members"]:
+            demand(fid in self.problem.place and self.rank(fid), "a member that is never hidden:", fid)
+            demand(level == 0, "there is no clause about the level", level, "of", fid)
+        among = set(members)
+        self.problem.look_at(lambda fid: fid in among or self.rank(fid) == 0)
+        listed, self.problem.listed = self.problem.listed, {}
+        try:
+            self.check_conflict(told)
+        finally:
+            self.problem.listed = listed
+            self.problem.look_at(self.visible)
+        return told["members"]
+
+    def check_conflict(self, told):
+        a, b, reason = told["a"], told["b"], told["reason"]
+        self.problem.demand_pair(a, b)
+        demand(b not in self.problem.block(a), a, "and", b, "are of one block")
+        if "proof" in told:
+            demand(reason not in ("kept", "same_block", "fixed"), "a proof that nothing is claimed of, with the reason", reason)
+            Clause(self.problem, told).check()
+            return
+        demand(reason in ("fixed", "max_shift"), "no proof of a clause of", a, "and", b)
+        decided.check(self.problem, {**told, "blocked_by": []})
+
+    def check_choice(self, told):
+        """A tree, in preorder. Returns (its bound, the features that it is about)."""
+        bound, self.features, range_of = vector(told["bound"]), set(), {}
+        ranges, nodes = [range_of], iter(told["nodes"])
+        for node in nodes:
+            demand(ranges, "nodes after the last leaf")
+            at = ranges.pop()
+            if "split" in node:
+                fid, level = node["split"], node["level"]
+                low, high = at.get(fid, (0, HIDDEN))
+                demand(fid in self.problem.place and self.rank(fid) and low < level <= high, "a division at no level of", fid)
+                self.features.add(fid)
+                ranges += [{**at, fid: (low, level - 1)}, {**at, fid: (level, high)}]
+            elif "unmet" in node:
+                demand(all(at.get(fid, (0, HIDDEN))[1] <= level for fid, level in self.members(node["unmet"])), "a clause that may be met")
+            else:
+                demand(not is_less(self.proved(node["shares"], at), bound), "the shares prove less than the bound")
+        demand(not ranges, "leaves are missing")
+        return bound, frozenset(self.features)
+
+    def members(self, k):
+        found = self.clauses[index(k, len(self.clauses), "clause")]
+        self.features |= {fid for fid, _ in found}
+        return found
+
+    def proved(self, shares, at):
+        """What the least levels cost, and the shares. For each feature and level, the shares of the clauses that it meets then are no more
+        than the level costs beyond the least."""
+        of, total = {}, {}
+        for k, c, weight in shares:
+            share = of.setdefault(k, {})
+            c = LAST if c is None else c
+            demand(c not in share, "a share that is there twice")
+            share[c] = weight
+        used = {}
+        for k, share in of.items():
+            demand(not is_less(share, {}), "a share less than nothing")
+            total = plus(total, share)
+            for fid, level in self.members(k):
+                low, high = at.get(fid, (0, HIDDEN))
+                demand(low <= level, "a share of a clause that is met")
+                for met in range(level + 1, high + 1):
+                    used[fid, met] = plus(used.get((fid, met), {}), share)
+        for (fid, level), sums in used.items():
+            low = at.get(fid, (0, HIDDEN))[0]
+            demand(not is_less(plus(self.cost(fid, level), self.cost(fid, low), -1), sums), "shares of more than what", fid, "costs")
+        for fid, (low, _) in at.items():
+            total = plus(total, self.cost(fid, low))
+        return total
+
+    def add_choice(self, found):
+        bound, features = found
+        demand(not features & self.used, "two trees are about one feature")
+        self.used |= features
+        self.total = plus(self.total, bound)
+
+    def end(self, head):
+        """Returns what was verified, in words."""
+        bound, hides = vector(head["bound"]), {}
+        demand(not is_less(self.total, bound), "the trees prove less than the bound of what is hidden")
+        for fid in self.hidden:
+            hides = plus(hides, self.cost(fid, HIDDEN))
+        demand(not is_less(hides, bound), "the bound is more than what is hidden")
+        return f"hidden {len(self.hidden)}, {len(self.clauses)} clauses with proofs; "
