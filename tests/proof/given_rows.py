@@ -30,7 +30,7 @@ class GivenRows(Rows):
         for line in told:
             a, b = line["a"], line["b"]
             demand(a in self.house and b in self.house and problem.place[a] < problem.place[b], "no neighbours in a row:", a, b)
-            bodies = problem.block(a), problem.block(b)
+            bodies = problem.blocks.block(a), problem.blocks.block(b)
             i, j = (self.number[body] for body in bodies)
             demand(i != j and row_of.get(i) is not None and row_of.get(i) == row_of.get(j) and bodies not in self.of,
                    "these are no neighbours in a row:", a, b)
@@ -51,7 +51,7 @@ class GivenRows(Rows):
         for fid in self.house:
             value = value_of(self.problem.attributes[fid], self.problem.options.rows_field)
             if value is not None:
-                known = found.setdefault(self.number[self.problem.block(fid)], value)
+                known = found.setdefault(self.number[self.problem.blocks.block(fid)], value)
                 demand(known == value, "a block in two rows:", fid)
         return found
 

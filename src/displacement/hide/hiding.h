@@ -31,9 +31,11 @@ typedef struct sunder_i_hiding {
 sunder_status sunder_i_hiding_begin(const sunder_layer *layer, sunder_i_hiding *hiding, sunder_error *err);
 void sunder_i_hiding_free(sunder_i_hiding *hiding);
 /* Learns from the conflicts that remain in a layout of the features that are not hidden, and chooses again.
- * number[k] is the caller's number of thing k of the model. Takes the proofs that it keeps from the report. Sets *again
- * to whether the choice has to be tried; otherwise the layout is the last one, and its conflicts are among features that
- * may not be hidden. */
+ *
+ * number  [things of the model] the caller's numbers
+ * report  the proofs that are kept are taken from it
+ * again   whether the choice has to be tried; otherwise the layout is the last one, and its conflicts are among
+ *         features that may not be hidden */
 sunder_status sunder_i_hiding_learn(sunder_i_hiding *hiding, const sunder_i_model *model, const uint32_t *number,
                                     sunder_report *report, bool *again, sunder_error *err);
 /* Writes what is hidden, and what is proved of it, to the report, which receives the proofs of the clauses. */
