@@ -47,7 +47,7 @@ def in_two_trees(problem):
     return [{**line, "group": 0} if "group" in line else line for line in lines]
 
 
-case("price-of-two-trees", "two trees have", SQUARES, in_two_trees, APART)
+case("price-of-two-trees", "there twice", SQUARES, in_two_trees, APART)
 
 
 # ---- Joined polygons: they claim that a house is deep in its neighbour

@@ -21,9 +21,8 @@ class Tree(Bodies):
         self.springs = [self.read_spring(spring) for spring in self.cuts]
         self.exact = {}  # (i, j, n, d, stiffness, share) of cuts that have been verified; stiffness 0: no spring; j None: fixed ground
         self.reach = {}
-        self.priced = {}  # (i, j): see read_price()
-        for i, j in told.get("eased", ()):
-            self.priced[i, j] = self.read_price(i, j)
+        self.prices = [((i, j), *self.read_price(i, j)) for i, j in told.get("eased", ())]
+        self.priced = {at: price for at, *price in self.prices}
 
     def mass(self, i, j):
         return sum(1 / self.weights[k] for k in (i, j) if self.weights[k] is not None)
@@ -39,11 +38,10 @@ class Tree(Bodies):
         eased = self.problem.eased
         demand(frozenset((one, other)) in eased.members, "there is no price of", *one, *other)
         pair = frozenset((one, other))
-        demand(all(pair != known for known, _, _ in self.priced.values()), "a price that is there twice:", *one, *other)
         return pair, *eased.price(pair)
 
     def proved(self):
-        return super().proved()._replace(springs=self.springs, prices=[pair for pair, _, _ in self.priced.values()])
+        return super().proved()._replace(springs=self.springs, prices=[pair for _, pair, _, _ in self.prices])
 
     # ---- Bounds by forces
 
@@ -295,7 +293,7 @@ def add_up(trees):
     by_group, stiff, priced = {}, {}, set()
     for tree in trees:
         for pair in tree.prices:
-            demand(pair not in priced, "a price that two trees have")
+            demand(pair not in priced, "a price that is there twice")
             priced.add(pair)
         for key, share, most in tree.springs:
             stiff[key] = stiff.get(key, 0) + share
