@@ -1,9 +1,9 @@
-"""Proofs with the prices of eased pairs: python3 eased_proofs.py SUNDER SEED PROOFS.
+"""Proofs with the prices of eased pairs: python3 eased_proofs.py SUNDER SEED PROOFS EFFORT.
 
 Draws layers until the proofs of that number of them have cuts by prices, and lets check_proof.py check all of them: houses between roads
 with weights and limits (tests/cli/ease_bounds.py), rows of houses beside roads (rows_proofs.py), small worlds (small_worlds.py). Then it
 changes what a file says of prices, one thing at a time, and demands that this is refused. It compares the bytes of the result with those of
-a run without --proof.
+a run without --proof. EFFORT is the --effort of most runs; the files grow with it.
 """
 import copy
 import os
@@ -46,9 +46,9 @@ def small_world(rng):
     return "small.gpkg", [w.replace("small.road.csv", "small.road.gpkg") for w in words] + ["--rows", "no"]
 
 
-def drawn(rng):
+def drawn(rng, effort):
     source, words = rng.choice((houses_and_roads, houses_and_roads, rows_and_roads, small_world))(rng)
-    return source, words + ["--ease", rng.choice(("30", "5", "200")), "--effort", rng.choice(("1", "1", "1", "0.01", "0"))]
+    return source, words + ["--ease", rng.choice(("30", "5", "200")), "--effort", rng.choice((effort, effort, effort, "0.01", "0"))]
 
 
 def run(sunder, source, out, words):
@@ -151,12 +151,12 @@ UNTRUE = {"no price": change(itself, at_no_price), "another price": change(plain
           "more in sum": in_head("lower_bound", lambda v: v * (1 + 1e-5))}
 
 
-def main(sunder, seed, proofs):
+def main(sunder, seed, proofs, effort):
     wrong, asked, layers, files, of_cuts, refused = [], {}, 0, 0, 0, 0
     while layers < MOST_LAYERS and (files < proofs + len(AGAIN) or set(UNTRUE) - set(asked)):
         at = AGAIN[layers] if layers < len(AGAIN) else seed + layers - len(AGAIN)
         rng, layers = random.Random(at), layers + 1
-        source, words = drawn(rng)
+        source, words = drawn(rng, effort)
         run(sunder, source, "o.gpkg", words + ["--proof", "p.jsonl"])
         run(sunder, source, "without.gpkg", words)
         checker = check_proof.Checker(check_proof.read_options(["p.jsonl", source, "--result", "o.gpkg", *words]))
@@ -189,4 +189,4 @@ def main(sunder, seed, proofs):
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1], int(sys.argv[2]), int(sys.argv[3])))
+    sys.exit(main(sys.argv[1], int(sys.argv[2]), int(sys.argv[3]), sys.argv[4]))
