@@ -153,8 +153,10 @@ static bool set_value(const gis_option *option, arguments *in, const char *value
     switch (option->type) {
     case GIS_TYPE_FLAG: return true;
     case GIS_TYPE_BARRIERS:
-    case GIS_TYPE_FORMATS:
-    case GIS_TYPE_SETTINGS: return push_value(out, id, value, error);
+    case GIS_TYPE_FORMATS: return push_value(out, id, value, error);
+    case GIS_TYPE_SETTINGS:
+        if (!strchr(value, '=')) return gis_fail_usage(error, "%.*s %s: expected K=V", n, option->names, value);
+        return push_value(out, id, value, error);
     case GIS_TYPE_PAIRS:
         if (!strchr(value, '=')) {
             if (in->next >= in->count) return gis_fail_usage(error, "%.*s %s: expected K=V", n, option->names, value);
@@ -257,6 +259,23 @@ static bool check_shard(const gis_options *out, gis_error *error)
            gis_fail_usage(error, "sunder separate --shard K takes one operand, PLAN; `sunder plan` makes one");
 }
 
+/* Refuses an option that says how another one works, which is not given. */
+static bool check_needs(const gis_options *out, gis_error *error)
+{
+    static const gis_option_id needs[][2] = {
+        {OPT_OVERWRITE_LAYER, OPT_UPDATE},
+        {OPT_DIALECT, OPT_SQL},
+        {OPT_DROP_HIDDEN, OPT_HIDE},
+    };
+    for (size_t i = 0; i < sizeof needs / sizeof *needs; i++) {
+        const gis_option *one = &gis_option_table[needs[i][0]], *other = &gis_option_table[needs[i][1]];
+        if (out->given[one->id] && !out->given[other->id])
+            return gis_fail_usage(error, "%.*s needs %.*s", name_length(one), one->names, name_length(other),
+                                  other->names);
+    }
+    return true;
+}
+
 /* Sets the defaults of choices and checks the conditions between options and operands. */
 static bool finish_options(gis_options *out, gis_error *error)
 {
@@ -278,12 +297,9 @@ static bool finish_options(gis_options *out, gis_error *error)
     if (out->given[OPT_OVERWRITE] && out->given[OPT_UPDATE])
         return gis_fail_usage(error, "--overwrite replaces the whole dataset, --update adds to it: give one of them "
                                      "(--update --overwrite-layer replaces layers)");
-    if (out->given[OPT_OVERWRITE_LAYER] && !out->given[OPT_UPDATE])
-        return gis_fail_usage(error, "--overwrite-layer needs --update");
     if (out->given[OPT_INPUT_LAYER] && out->given[OPT_SQL])
         return gis_fail_usage(error, "--input-layer and --sql cannot be given together");
-    if (out->given[OPT_DIALECT] && !out->given[OPT_SQL]) return gis_fail_usage(error, "--dialect needs --sql");
-    return true;
+    return check_needs(out, error);
 }
 
 bool gis_options_parse(const gis_command *command, int argc, char **argv, gis_options *out, gis_error *error)

@@ -45,6 +45,13 @@ separate --stats csv.json thirds.gpkg rounded.csv 2>/dev/null
 [ "$(verified csv.json)" = false ] || fail "CSV rounds, and is called verified"
 separate --lco COORDINATE_PRECISION=3 --stats rounded.json thirds.gpkg rounded.geojson 2>/dev/null
 [ "$(verified rounded.json)" = false ] || fail "rounded GeoJSON is called verified"
+# creation options that the driver does not have
+losses() { separate --overwrite --stats options.json "$@" thirds.gpkg options.gpkg 2>/dev/null && jq -c .losses options.json; }
+for words in '--lco SPATIAL_INDX=NO' '--co VERSIONS=1.2'; do
+    # shellcheck disable=SC2086
+    [ "$(losses $words)" = "[\"creation option ${words#* } has no effect: GPKG has no such option\"]" ] || fail "$words: $(losses $words)"
+done
+[ "$(losses --lco spatial_index=NO --co VERSION=1.2)" = '[]' ] || fail "creation options that GDAL has"
 for each in kml geojsonl; do
     refused 1 'reproject' separate thirds.gpkg "moved.$each"
     [ ! -e "moved.$each" ] || fail "a refused format left a file"

@@ -29,6 +29,11 @@ refused 2 'must be one of' sum square:1 square:1 --algorithm quickest
 refused 2 'unknown command' dissolve a b
 refused 2 'a command is missing'
 refused 2 'unknown option' --nonsense
+for option in --lco --co --oo; do refused 2 "$option X: expected K=V" separate a b $option X; done
+# An option that says how another one works needs it.
+refused 2 '--drop-hidden needs --hide' separate a b --drop-hidden
+refused 2 '--dialect needs --sql' separate a b --dialect SQLITE
+refused 2 '--overwrite-layer needs --update' separate a b --overwrite-layer
 
 # A misspelt option gets a suggestion, an unrelated word does not.
 refused 2 'did you mean separate?' seperate a b
@@ -97,7 +102,6 @@ refused 2 'none of main' separate in.gpkg o.gpkg --layers main,nonsense
 refused 2 'none of these applies' separate in.gpkg o.gpkg --layers symbols
 refused 2 'must be one of text|json' check in.gpkg --messages xml
 refused 2 'cannot be given together' check in.gpkg --sql 'SELECT * FROM houses' --input-layer houses
-refused 2 '--dialect needs --sql' check in.gpkg --dialect sqlite
 refused 2 'needs --update' separate in.gpkg o.gpkg --overwrite-layer
 refused 2 '--overwrite replaces' separate in.gpkg o.gpkg --overwrite --update
 refused 2 'share standard output' separate in.gpkg /vsistdout/ --of GeoJSON --stats -

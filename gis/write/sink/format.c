@@ -5,6 +5,7 @@
 #include "write/sink/abilities.h"
 
 #include <cpl_conv.h>
+#include <cpl_minixml.h>
 #include <cpl_string.h>
 #include <string.h>
 
@@ -105,12 +106,34 @@ bool gis_format_find(const char *path, const char *name, const char *const *laye
     return true;
 }
 
+/* Does the driver's list, which is XML, have the option? True if there is no list. */
+static bool lists(const char *list, const char *option)
+{
+    CPLXMLNode *root = list ? CPLParseXMLString(list) : NULL;
+    bool found = !root;
+    for (const CPLXMLNode *node = root ? root->psChild : NULL; node && !found; node = node->psNext)
+        found = node->eType == CXT_Element && (EQUAL(CPLGetXMLValue(node, "name", ""), option) ||
+                                               EQUAL(CPLGetXMLValue(node, "alias", ""), option));
+    CPLDestroyXMLNode(root);
+    return found;
+}
+
 bool gis_format_has_option(const gis_format *format, const char *option)
 {
     const char *list = GDALGetMetadataItem(format->driver, GDAL_DS_LAYER_CREATIONOPTIONLIST, NULL);
-    char quoted[64];
-    snprintf(quoted, sizeof quoted, "name='%s'", option);
-    if (list && strstr(list, quoted)) return true;
-    snprintf(quoted, sizeof quoted, "name=\"%s\"", option);
-    return list && strstr(list, quoted);
+    return list && lists(list, option);
+}
+
+void gis_format_tell_unknown(const gis_format *format, const char *kind, const char *const *options,
+                             gis_sentences *out)
+{
+    const char *list = GDALGetMetadataItem(format->driver, kind, NULL);
+    for (size_t i = 0; options && options[i]; i++) {
+        char *name = NULL;
+        CPLParseNameValue(options[i], &name);
+        if (name && !lists(list, name))
+            gis_sentences_add(out, "creation option %s has no effect: %s has no such option", options[i],
+                              format->name);
+        CPLFree(name);
+    }
 }

@@ -33,4 +33,10 @@ bool gis_format_find(const char *path, const char *name, const char *const *laye
 /* Does the driver know the layer creation option `option`? */
 bool gis_format_has_option(const gis_format *format, const char *option);
 
+/* Adds a sentence to *out for each of the `options`, K=V, that the driver does not have. `kind` is the key of the
+ * driver's list: GDAL_DMD_CREATIONOPTIONLIST or GDAL_DS_LAYER_CREATIONOPTIONLIST. Drivers without a list tell nothing.
+ */
+void gis_format_tell_unknown(const gis_format *format, const char *kind, const char *const *options,
+                             gis_sentences *out);
+
 #endif

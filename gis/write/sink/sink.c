@@ -100,6 +100,8 @@ bool gis_sink_open(const gis_sink_request *request, const gis_source *source, gi
     sink->format = format;
     sink->fids_kept = format.keeps_fids && !request->new_fids && (!source || gis_source_fids_unique(source)) &&
                       !(source && (format.abilities & GIS_NEEDS_POSITIVE_FIDS) && gis_source_fids_negative(source));
+    gis_format_tell_unknown(&format, GDAL_DMD_CREATIONOPTIONLIST, request->dataset_options, &sink->losses);
+    gis_format_tell_unknown(&format, GDAL_DS_LAYER_CREATIONOPTIONLIST, request->layer_options, &sink->losses);
     choose_place(sink);
     fix_date(sink);
     if (!gis_sink_check_type(sink, error) || !gis_sink_check_geometries(sink, error) ||
