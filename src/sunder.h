@@ -566,7 +566,7 @@ typedef struct sunder_layer_options {
     double ease;
     /* 0 (the default), or a distance greater than the gap that features are to keep if it pays: any pair may stand
      * between the two, and is then tight. What it lacks of the full gap has the price of `ease`. The tolerance, kinks
-     * and rows are measured by the full gap. Not with keep_trees. */
+     * and rows are measured by the full gap. */
     double full_gap;
 } sunder_layer_options;
 

@@ -55,13 +55,14 @@ typedef struct sunder_bound_piece {
     size_t corners_a, corners_b; /* the number of corners of each part */
     bool shadow;                 /* one part is an anchor, which may not jump over the other part: see sunder_proof */
     bool row;
-    bool priced; /* it forbids nothing: the pair lacks at least the distance that it has to keep, less the distance of u
-                  * from the polygon of all moves at which the two parts overlap, plus its depth in that polygon */
+    bool priced; /* it forbids nothing: the pair lacks at least its full distance, less the distance of u from the
+                  * polygon of all moves at which the two parts overlap, plus its depth in that polygon; with `row` at
+                  * least what u lacks of the rule of rows with the full gap (sunder_layer_options.full_gap) */
     /* If it is joined, `part_a` is a polygon instead, in the plane of u, and there is no second part. It lies in the
      * union of the polygons of the pieces that it names (as a cut does), all of the same a and b. It is priced. */
     bool joined;
     size_t named, names;
-    /* NAN for a pair that has to keep its full distance. The other pairs are in conflict in the result. If the
+    /* NAN for a pair that has to keep its distance. The other pairs are in conflict in the result. If the
      * interiors of such a pair did not meet at the start, the clearance is at most its distance then. If they met, and
      * by the kind of the conflict no longer meet, the clearance is 0. If they still meet, the clearance is -D: some
      * translation no longer than D must separate the pair, and the least such translation at the start was no longer
@@ -121,7 +122,7 @@ typedef struct sunder_bound_prices {
 } sunder_bound_prices;
 
 /* Two bodies i < j, of which one may move, and some features of which are in conflict in the result. What they lack is
- * the most that such a pair of features lacks. */
+ * the most that such a pair of features lacks. With a full gap any two bodies, and the most that any pair lacks. */
 typedef struct sunder_bound_eased {
     size_t i, j; /* indices in sunder_bound_tree.body */
 } sunder_bound_eased;

@@ -248,8 +248,6 @@ static bool resolve_least_gaps(const gis_options *options, gis_layer_input_reque
                                   barrier->least.text);
     }
     if (!rules->has_least_gap || options->command->bit == GIS_CHECK) return true;
-    if (options->given[OPT_PROOF])
-        return gis_fail_usage(error, "--proof: a proof cannot name what pairs lack; leave out the least gap");
     if (options->text[OPT_EASE] && !(rules->core.ease > 0))
         return gis_fail_usage(error, "--ease no: pairs between the least gap and the gap need a price");
     return true;

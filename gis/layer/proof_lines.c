@@ -249,6 +249,7 @@ static void put_piece(gis_proof_lines *w, const sunder_bound_tree *tree, const s
     gis_proof_thing(w, "b", piece->b);
     if (piece->row) {
         gis_json_put_bool(&w->json, "row", true);
+        if (piece->priced) gis_json_put_bool(&w->json, "priced", true);
         gis_json_close(&w->json, '}');
         return;
     }
@@ -492,7 +493,8 @@ void gis_proof_head_line(gis_json *json, const gis_proof_head *head)
     gis_json_open(json, '{');
     gis_json_put_size(json, "sunder_proof", VERSION);
     gis_json_put_string(json, "layer", head->layer);
-    gis_json_put_double(json, "gap", head->how.gap);
+    gis_json_put_double(json, "gap", fmax(head->how.gap, head->how.full_gap));
+    if (head->how.full_gap > 0) gis_json_put_double(json, "least_gap", head->how.gap);
     gis_json_put_double(json, "max_shift", head->max_shift);
     gis_json_put_string(json, "contained", sunder_containment_string(head->how.contained));
     gis_json_put_bool(json, "allow_jumps", head->how.allow_jumps);

@@ -104,5 +104,4 @@ expect 2 "${words[@]}" --barrier road.gpkg,gap=2,least=3
 grep -q 'least=3: must not be greater than the gap, 2' err || fail "the message: $(cat err)"
 expect 2 "${words[@]}" --barrier road.gpkg,least=-3
 expect 2 "${words[@]}" --least-gap 1 --ease no
-expect 2 "${words[@]}" --least-gap 1 --proof p.jsonl
 finish

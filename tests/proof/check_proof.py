@@ -37,7 +37,7 @@ def read_options(words):
     for name in ("sql", "dialect", "bbox", "input-crs", "where", "fixed-where", "ignore-where", "max-shift-field", "weight-field",
                  "block-field", "symbol", "symbol-field", "symbol-size-field", "scale"):
         parser.add_argument("--" + name)
-    for name in ("max-shift", "touch-tolerance"):
+    for name in ("max-shift", "touch-tolerance", "least-gap"):
         parser.add_argument("--" + name)
     parser.add_argument("--gap", default="0")
     parser.add_argument("--barrier", action="append", default=[])
@@ -68,6 +68,7 @@ def read_options(words):
 
 def check_header(head, options, layer):
     for name, told, given in (("layer", head["layer"], layer), ("gap", head["gap"], options.gap),
+                              ("least_gap", head.get("least_gap"), options.least_gap),
                               ("max_shift", head["max_shift"], options.max_shift),
                               ("contained", head["contained"], options.contained),
                               ("allow_jumps", head["allow_jumps"], options.allow_jumps),
@@ -115,7 +116,7 @@ class Checker:
         total, bound = trees.add_up(found) + problem.eased.rest({pair for tree in found for pair in tree.prices}), proof.head["lower_bound"]
         demand(total >= bound, "the bound proved is", shown(total), "and not", bound)
         said = (f"bound {bound:.9g}: {len(found)} trees, {sum(t.nodes for t in found)} nodes, {sum(t.cuts for t in found)} cuts; "
-                f"{len(proof.blocks)} blocks; {proved} of {len(proof.conflicts)} conflicts with proofs; ")
+                f"{len(proof.blocks)} blocks; {proved} of {sum(c['kind'] != 'tight' for c in proof.conflicts)} conflicts with proofs; ")
         said += self.hiding.end(proof.head["hide"]) if self.hiding else ""
         return said + (self.result.check(proof.conflicts, total) if self.result else "the list of conflicts is the file's own")
 

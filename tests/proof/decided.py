@@ -20,6 +20,7 @@ MOST_STEPS = 20_000
 def check(problem, told):
     """Checks a conflict without a proof of its own."""
     a, b, reason = told["a"], told["b"], told["reason"]
+    demand((reason == "") == (told["kind"] == "tight"), "a reason of what is no conflict, or none of one:", a, b)
     demand(reason == "unresolved" or not told["blocked_by"], "blocked_by is not what decides about", a, "and", b)
     still = not problem.is_barrier(a) and all(limit_of(problem, k) == 0 for k in (a, b))
     if reason == "fixed":
@@ -33,14 +34,14 @@ def check(problem, told):
     elif reason in ("max_shift", "jump"):
         demand(is_shut(problem, a, b, reason == "jump"), "no proof, and none is found, that", a, "and", b, "have no solution by",
                reason)
-    else:
+    elif reason:
         demand(reason == "unresolved" and not told.get("crowded"), "no solution, and no proof:", a, b)
 
 
-def is_too_near(problem, a, b):
-    """Does the pair have the conflict, at the original places?"""
+def is_too_near(problem, a, b, owed=None):
+    """Does the pair have the conflict, at the original places? owed: another distance than the one that they have to keep."""
     p, q = (problem.whole(k) for k in ((a, b) if problem.whole(a).area else (b, a)))
-    owed = problem.required(a, b)
+    owed = problem.required(a, b) if owed is None else owed
     return plane.interiors_meet(p, q) or (owed > 0 and plane.nearer(p, q, owed))
 
 

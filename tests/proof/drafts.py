@@ -64,6 +64,7 @@ def proof(problem, conflicts=(), trees=(), bound=None):
     bound = sum(t["bound"] for t in trees) if bound is None else bound
     head = {"sunder_proof": 2, "layer": problem.name, "gap": options.gap, "max_shift": options.max_shift, "contained": options.contained,
             "allow_jumps": options.allow_jumps, **({"row_stiffness": options.row_stiffness} if options.row_stiffness else {}),
+            **({"least_gap": options.least_gap} if options.least_gap is not None else {}),
             **({"ease": options.ease} if options.ease else {}), "lower_bound": bound, "conflicts": len(conflicts), "trees": len(trees)}
     blocks = [{"block": list(fids)} for fids in dict.fromkeys(problem.blocks.of.values())]
     return [head, *blocks, *({"conflict": k, **c} for k, c in enumerate(conflicts)), *({"group": k, **t} for k, t in enumerate(trees))]

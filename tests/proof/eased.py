@@ -29,7 +29,7 @@ class Eased:
         self.problem, self.ease, self.members, self.known = problem, Fraction(ease or 0), {}, {}
 
     def list_conflicts(self, conflicts):
-        """Conflicts, as the file lists them, between two of which one moves, unless they may overlap."""
+        """Conflicts and tight pairs, as the file lists them, between two of which one moves, unless they may overlap."""
         self.members = {}
         for told in conflicts if self.ease else ():
             a, b = told["a"], told["b"]
@@ -51,8 +51,8 @@ class Eased:
         problem = self.problem
         limits = {body: problem.body_limit(body) for body in pair if not problem.is_barrier(body[0])}
         weight = min(sum(Fraction(problem.weight(fid)) for fid in body) for body, limit in limits.items() if limit != 0)
-        a, b = self.members[pair][0]
-        far = min((Fraction(v) for v in limits.values() if v), default=Fraction(problem.required(a, b)) / problem.lattice.unit)
+        a, b = (body[0] for body in pair)
+        far = min((Fraction(v) for v in limits.values() if v), default=Fraction(problem.full(a, b)) / problem.lattice.unit)
         return 4 * weight * far, weight * self.ease
 
     # ---- What pairs lack
@@ -60,7 +60,7 @@ class Eased:
     def lack(self, a, b, u):
         """Bounds of what the two lack if b is moved by u, in units of the lattice; an upper one may be None."""
         problem = self.problem
-        owed = problem.required(a, b)
+        owed = problem.full(a, b)
         if u == (0, 0):
             square, depth, _ = problem.how_it_stood(a, b)
         else:
@@ -79,7 +79,10 @@ class Eased:
         return self.known[a, b]
 
     def most(self, pair):
-        """The most that the pair may lack by those conflicts of which a tree may make use: what it lacked at the start. None: unknown."""
+        """The most that the pair may lack by those conflicts of which a tree may make use: what it lacked at the start. None: unknown, or
+        with a least gap any pair may lack more."""
+        if self.problem.has_slack:
+            return None
         found = [self.at_home(a, b)[1] for a, b in self.members[pair] if not self.problem.how_it_stood(a, b)[2]]
         return None if None in found else max(found, default=Fraction(0))
 
@@ -90,7 +93,8 @@ class Eased:
         if None in limits:
             return Fraction(0)
         reach = sum(map(Fraction, limits))
-        lacks = max([self.at_home(a, b)[0] - reach for a, b in self.members[pair] if self.stay_apart(a, b, reach)], default=Fraction(0))
+        lacks = max([self.at_home(a, b)[0] - reach for a, b in self.members.get(pair, ()) if self.stay_apart(a, b, reach)], default=Fraction(0))
+        lacks = max(lacks, self.ahead(pair, (0, 0)) - reach)
         linear, square = self.price(pair)
         return lacks * (linear + square * lacks) if lacks > 0 else Fraction(0)
 
@@ -104,20 +108,55 @@ class Eased:
 
     def rest(self, used):
         """What all pairs cost at least whose prices no tree has."""
-        return sum(self.alone(pair) for pair in self.members if pair not in used)
+        return sum(self.alone(pair) for pair in self.pairs() if pair not in used)
+
+    # ---- With a least gap
+
+    def has_price(self, pair):
+        """With a least gap all pairs have one: those that stand between the two gaps have to pay."""
+        ends = [body for body in pair if not self.problem.is_barrier(body[0])]
+        return pair in self.members or bool(self.ease and self.problem.has_slack and len(pair) == 2 and ends and
+                                            any(self.problem.body_limit(body) != 0 for body in ends))
+
+    def pairs(self):
+        """The pairs that are named, and neighbours in a row that lack some of its rule with the full gap."""
+        rows = self.problem.rows.of if self.problem.rows and self.problem.has_slack else ()
+        return {**self.members, **{pair: () for pair in map(frozenset, rows) if pair not in self.members and self.has_price(pair)}}
+
+    def ahead(self, pair, u):
+        """What the pair, of which the second one moves by u relative to the first one, lacks of that rule."""
+        one, other = pair
+        rule = self.problem.has_slack and self.problem.rows and (one, other) in self.problem.rows.of and self.problem.rows.full(one, other)
+        return rule[1] - rule[0][0] * u[0] - rule[0][1] * u[1] if rule else Fraction(0)
 
     def cost(self, move):
         """No more than this is what all pairs cost; move: of a feature."""
-        return sum(self.cost_of(pair, move) for pair in self.members)
+        return sum(self.cost_of(pair, move) for pair in self.pairs())
 
     def cost_of(self, pair, move):
         linear, square = self.price(pair)
-        lacks = max(self.lack(a, b, self.between(a, b, move))[1] for a, b in self.members[pair])
+        lacks = max([self.lack(a, b, self.between(a, b, move))[1] for a, b in self.members.get(pair, ())], default=Fraction(0))
+        s, t = ((0, 0) if self.problem.is_barrier(body[0]) else tuple(map(Fraction, move(body[0]))) for body in pair)
+        lacks = max(lacks, self.ahead(pair, (t[0] - s[0], t[1] - s[1])))
         return max(Fraction(0), lacks) * (linear + square * max(Fraction(0), lacks))
 
     def between(self, a, b, move):
         s, t = ((0, 0) if self.problem.is_barrier(k) else self.problem.lattice.point(move(k)) for k in (a, b))
         return t[0] - s[0], t[1] - s[1]
+
+
+class Ahead:
+    """What neighbours in a row lack at least of its rule with the full gap: d - n.u. It forbids nothing."""
+
+    def __init__(self, n, d, unit):
+        self.n, self.d, self.corners, self.shadow, self.priced = n, d * unit, (), False, True
+
+    def holds(self, *_):
+        return False
+
+    def line(self, n, d):
+        """Where they lack at least d - n.u, as the half-plane a.u <= c, in units of the lattice."""
+        return [p - q for p, q in zip(self.n, n)], self.d - d
 
 
 class Sloped:
@@ -132,6 +171,9 @@ class Sloped:
         if not self.piece.priced:
             return self.piece.holds(fine, corner)
         x, y, w = corner
+        if isinstance(self.piece, Ahead):
+            (a, b), c = self.piece.line(self.n, self.d)
+            return a * x + b * y <= c * w
         return self.piece.is_within(fine, self.piece.owed - self.d + (self.n[0] * x + self.n[1] * y) / w)
 
     def leaving(self, places, middle):
@@ -156,6 +198,9 @@ class Sloped:
             a, b, c = self.piece.line
             size = math.hypot(a, b)
             return float(a * p[0] + b * p[1] - c * PLACE) / size, (a / size, b / size)
+        if isinstance(self.piece, Ahead):
+            (a, b), c = self.piece.line(self.n, self.d)
+            return float(a * p[0] + b * p[1] - c * PLACE), (float(a), float(b))
         corners = [(float(p[0] - PLACE * x), float(p[1] - PLACE * y)) for x, y in self.outline]
         far, (nx, ny) = self.inside(corners) or min((at_edge(q, r) for q, r in zip(corners, corners[1:] + corners[:1])), key=lambda v: v[0])
         if not self.piece.priced:

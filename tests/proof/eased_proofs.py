@@ -1,9 +1,9 @@
 """Proofs with the prices of eased pairs: python3 eased_proofs.py SUNDER SEED PROOFS EFFORT.
 
 Draws layers until the proofs of that number of them have cuts by prices, and lets check_proof.py check all of them: houses between roads
-with weights and limits (tests/cli/ease_bounds.py), rows of houses beside roads (rows_proofs.py), small worlds (small_worlds.py). Then it
-changes what a file says of prices, one thing at a time, and demands that this is refused. It compares the bytes of the result with those of
-a run without --proof. EFFORT is the --effort of most runs; the files grow with it.
+with weights and limits (tests/cli/ease_bounds.py), rows of houses beside roads (rows_proofs.py), both with a least gap, too, and small
+worlds (small_worlds.py). Then it changes what a file says of prices, one thing at a time, and demands that this is refused. It compares
+the bytes of the result with those of a run without --proof. EFFORT is the --effort of most runs; the files grow with it.
 """
 import copy
 import os
@@ -46,8 +46,15 @@ def small_world(rng):
     return "small.gpkg", [w.replace("small.road.csv", "small.road.gpkg") for w in words] + ["--rows", "no"]
 
 
+def with_a_least_gap(rng):
+    """Houses and roads, or rows, whose pairs may stand between two gaps."""
+    source, words = rng.choice((houses_and_roads, rows_and_roads, rows_and_roads))(rng)
+    gap = float(words[words.index("--gap") + 1])
+    return source, words + ["--least-gap", repr(gap * rng.choice((0, 0.25, 0.5, 0.9)))]
+
+
 def drawn(rng, effort):
-    source, words = rng.choice((houses_and_roads, houses_and_roads, rows_and_roads, small_world))(rng)
+    source, words = rng.choice((houses_and_roads, with_a_least_gap, rows_and_roads, small_world))(rng)
     return source, words + ["--ease", rng.choice(("30", "5", "200")), "--effort", rng.choice((effort, effort, effort, "0.01", "0"))]
 
 
@@ -84,7 +91,7 @@ def cuts(tree):
 
 
 def priced(tree):
-    return [piece for piece in tree["pieces"] if "priced" in piece]
+    return [piece for piece in tree["pieces"] if "priced" in piece and "A" in piece]
 
 
 def joined(tree):
@@ -92,9 +99,9 @@ def joined(tree):
 
 
 def plain(tree):
-    """Pairs of bodies that have no price in the tree."""
-    n = len(tree["bodies"])
-    return [[i, j] for i in range(n) for j in range(i + 1, n) if [i, j] not in tree["eased"]]
+    """Pairs of bodies that have no price in the tree, if cuts use that of the first pair that has one."""
+    n, used = len(tree["bodies"]), any([cut["i"], cut["j"]] == tree["eased"][0] for cut in cuts(tree))
+    return [[i, j] for i in range(n) for j in range(i + 1, n) if used and [i, j] not in tree["eased"]]
 
 
 def at_no_price(tree, _):
@@ -137,6 +144,15 @@ def in_head(key, what):
     return mutate
 
 
+def listed(lines, rng):
+    """A tight pair as a conflict, which may stand as near as at the start."""
+    tight = [line for line in lines if line.get("kind") == "tight"]
+    for line in tight and [rng.choice(tight)]:
+        line.update(kind="too_close", reason="unresolved")
+        return True
+    return False
+
+
 UNTRUE = {"no price": change(itself, at_no_price), "another price": change(plain, at_the_price_of_others),
           "price twice": change(itself, lambda tree, _: tree["eased"].append(tree["eased"][0])),
           "body's price": change(itself, lambda tree, _: tree["eased"].append([0, 0])),
@@ -147,7 +163,7 @@ UNTRUE = {"no price": change(itself, at_no_price), "another price": change(plain
           "greater piece": change(priced, grow), "joined farther": change(joined, spread),
           "joined of itself": change(joined, lambda tree, piece: piece.update(pieces=[tree["pieces"].index(piece)])),
           "forbidden": change(priced, lambda _, piece: (piece.pop("priced"), piece.update(clearance=1e6))),
-          "raised": change(itself, raise_tree), "unlisted": unlisted, "another rate": in_head("ease", lambda v: v * 2),
+          "raised": change(itself, raise_tree), "unlisted": unlisted, "listed": listed, "another rate": in_head("ease", lambda v: v * 2),
           "more in sum": in_head("lower_bound", lambda v: v * (1 + 1e-5))}
 
 
@@ -169,7 +185,8 @@ def main(sunder, seed, proofs, effort):
         if status:
             wrong.append(f"{at}: {said}")
             continue
-        for name, mutate in UNTRUE.items() if own else ():
+        few = sum(len(tree["nodes"]) for tree in trees_in(lines)) <= rows_proofs.MOST_NODES
+        for name, mutate in UNTRUE.items() if own and few else ():
             mutated = copy.deepcopy(lines)
             if not mutate(mutated, rng):
                 continue

@@ -1,5 +1,5 @@
 """False bounds for false_proofs.py: trees in which pairs that are left in conflict have prices, each with one step that does not follow."""
-from drafts import body, box, conflict, cut, node, part, piece, proof, tree
+from drafts import body, box, conflict, cut, empty, node, part, piece, proof, tree
 from false_proofs import STUMBLES, Case
 
 CASES = []
@@ -76,3 +76,28 @@ INNER = {1: box(0, 0, 20, 20), 2: box(1, 9, 3, 11)}
 case("price-of-what-lies-within", "lie deeper", INNER, lambda problem: proof(problem, [conflict(1, 2, kind="contained")], [{**tree(
     problem, [1, 2], 1e5, [piece(0, 1, 1, 2, part(INNER[1]), part(INNER[2]), priced=True)],
     [node(None, [cut("price", [0, 0], 1, share=1, pieces=[0])], [[0, 1e5]])]), "eased": [[0, 1]]}]), {})
+
+
+# ---- With a least gap: two houses that stand between the two gaps, and have too little room for the full one
+
+BETWEEN = {1: box(0, 0, 10, 10), 2: box(12, 0, 22, 10)}
+LEAST = "--no-blocks --gap 3 --least-gap 1 --max-shift 0.125 --ease 0.125"
+TIGHT = conflict(1, 2, "", "tight")
+case("full-gap-as-the-least", "more is asked of", BETWEEN, lambda problem: proof(problem, [TIGHT], [tree(
+    problem, [1, 2], 5, [piece(0, 1, 1, 2, part(BETWEEN[1]), part(BETWEEN[2]), clearance=3)], empty([0]))]), {}, LEAST)
+case("price-beyond-the-full-gap", "may lack less", BETWEEN, lambda problem: proof(problem, [TIGHT], [{**tree(
+    problem, [1, 2], 5, [piece(0, 1, 1, 2, part(BETWEEN[1]), part(BETWEEN[2]), priced=True)],
+    [node(None, [cut("price", [1, 0], 9, share=1, pieces=[0])], [[0, 2]])]), "eased": [[0, 1]]}]), {}, LEAST)
+case("tight-for-a-reason", "a reason of what is no conflict", BETWEEN, lambda problem: proof(problem, [conflict(1, 2, "fixed", "tight")]), STUMBLES, LEAST)
+case("conflict-for-no-reason", "a reason of what is no conflict", BETWEEN, lambda problem: proof(problem, [conflict(1, 2, "", "too_close")]), STUMBLES, LEAST)
+STREET = {fid: box(12 * fid, 0, 12 * fid + 10, 10, row="A") for fid in (1, 2)}
+
+
+def along_the_row(problem):
+    told = {"i": 0, "j": 1, "a": 1, "b": 2, "row": True, "priced": True}
+    made = tree(problem, [1, 2], 1, [told], [node(None, [cut("price", [1, 0], 1, share=1, pieces=[0])], [[0, 2]])])
+    head, *rest = proof(problem, [conflict(1, 2, kind="too_close")], [{**made, "eased": [[0, 1]]}])
+    return [head, {"row": 0, "a": 1, "b": 2, "along": [1, 0], "apart": 2}, *rest]
+
+
+case("row-at-a-price-without-a-least-gap", "nothing of a row is lacked", STREET, along_the_row, STUMBLES, "--no-blocks --gap 3 --rows row --max-shift 0.125 --ease 30")

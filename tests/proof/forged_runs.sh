@@ -79,6 +79,7 @@ forge_generated() {
     only='"row"' forged named row.gpkg --gap 3 --rows w --fixed-where 'w = 3'
     forged bays bays.gpkg --gap 5 --max-shift 1 --rows auto
     forged front front.gpkg --gap 4 --max-shift 4.5 --rows auto --ease 30 --barrier drawn.gpkg,width=6
+    forged between row.gpkg --gap 3 --least-gap 1 --max-shift 2 --ease 30 --rows auto --fixed-where 'w = 3' --weight-field w
     forged squeezed squeezed.gpkg --gap 5 --max-shift 20 --fixed-where 'w = 3' --rows auto
     only='"within"' forged shut shut.gpkg --barrier shut_in.gpkg
     forged shares squares.gpkg --gap 3 --effort 0

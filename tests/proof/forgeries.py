@@ -323,7 +323,7 @@ def made_by(runs):
     return {what for run in runs for k in run.forged for what in statements_of(run.lines[k])}
 
 
-MEMBERS = """sunder_proof layer gap max_shift contained allow_jumps lower_bound conflicts trees block conflict a b kind reason blocked_by
+MEMBERS = """sunder_proof layer gap least_gap max_shift contained allow_jumps lower_bound conflicts trees block conflict a b kind reason blocked_by
 inside_block within proof proof.a proof.b proof.A proof.B proof.ways proof.ways.n proof.ways.d proof.ways.next proof.forces
 proof.forces.node proof.forces.way proof.forces.behind proof.forces.force proof.slack proof.held proof.shadow proof.clearance proof.c
 proof.side_b proof.side_c proof.still proof.row group bound bodies bodies.features bodies.features.fid bodies.features.weight

@@ -9,7 +9,7 @@ import json
 import math
 
 VERSION = 2
-KINDS = ("overlap", "too_close", "barrier", "barrier_drawn", "barrier_near", "contained", "duplicate")
+KINDS = ("overlap", "too_close", "barrier", "barrier_drawn", "barrier_near", "contained", "duplicate", "tight")
 REASONS = ("same_block", "kept", "fixed", "max_shift", "side", "jump", "no_room", "unresolved", "row")
 LEAST_FID, MOST_FID = -1 << 63, (1 << 63) - 1
 
@@ -165,7 +165,7 @@ question = either("row", members({"a": thing, "b": thing, "row": true, "ways": a
                   question)
 leaf = members({"forces": all_of(way_force, 1)}, {"still": all_of(pair_of(whole, whole), 2, 2)})
 nodes_of_proof = all_of(either("ways", question, leaf), 1)
-conflict = members({"conflict": whole, "a": thing, "b": thing, "kind": one_of(KINDS), "reason": one_of(REASONS),
+conflict = members({"conflict": whole, "a": thing, "b": thing, "kind": one_of(KINDS), "reason": one_of(("", *REASONS)),
                     "blocked_by": all_of(thing)},
                    {"crowded": true, "inside_block": true, "within": positive,
                     "proof": nodes_of_proof})
@@ -173,10 +173,10 @@ conflict = members({"conflict": whole, "a": thing, "b": thing, "kind": one_of(KI
 feature = members({"fid": integer, "weight": positive, "max_shift": or_null(not_negative)}, {"anchor": place})
 shared = {"weight": or_null(positive), "shift": place}
 body = either("barrier", members({"barrier": barrier, **shared}), members({"features": all_of(feature, 1), **shared}))
-piece = either("row", members({"i": whole, "j": whole, "a": thing, "b": thing, "row": true}),
+piece = either("row", members({"i": whole, "j": whole, "a": thing, "b": thing, "row": true}, {"priced": true}),
                members({"i": whole, "j": whole, "a": thing, "b": thing, "A": corners, "B": corners},
                        {"shadow": true, "clearance": number}))
-piece = either("priced", members({"i": whole, "j": whole, "a": thing, "b": thing, "priced": true, "A": corners, "B": corners}), piece)
+piece = either("priced", either("row", piece, members({"i": whole, "j": whole, "a": thing, "b": thing, "priced": true, "A": corners, "B": corners})), piece)
 piece = either("joined", members({"i": whole, "j": whole, "a": thing, "b": thing, "joined": all_of(place, 3), "pieces": all_of(whole, 1)}), piece)
 spring = members({"i": whole, "j": whole, "n": place, "stiff": positive})
 named = all_of(whole)
@@ -207,7 +207,7 @@ hide = members({"hidden": whole, "clauses": whole, "choices": whole, "bound": we
 head = members({"sunder_proof": whole, "layer": name, "gap": not_negative, "max_shift": or_null(not_negative),
                 "contained": one_of(("block", "ignore", "separate")), "allow_jumps": boolean,
                 "lower_bound": not_negative, "conflicts": whole, "trees": whole},
-               {"row_stiffness": all_of(not_negative, 2, 2), "ease": positive, "hide": hide})
+               {"row_stiffness": all_of(not_negative, 2, 2), "ease": positive, "least_gap": not_negative, "hide": hide})
 block = members({"block": all_of(integer, 2)})
 hidden = members({"hidden": whole, "fid": integer})
 clause = members({"clause": whole, "members": all_of(pair_of(integer, whole), 1), "a": thing, "b": thing, "reason": one_of(REASONS)},

@@ -101,7 +101,7 @@ class Judge:
 
     def cost_of_prices(self, tree):
         """In the result."""
-        return sum(self.problem.eased.cost_of(pair, self.result.moves.get) for pair in map(tree.pair, tree.eased) if pair in self.problem.eased.members)
+        return sum(self.problem.eased.cost_of(pair, self.result.moves.get) for pair in map(tree.pair, tree.eased) if self.problem.eased.has_price(pair))
 
     def wrong_with_tree(self, line, before):
         for body in line["bodies"]:
@@ -177,7 +177,7 @@ class Judge:
     def finds_moves(self, tree, cuts, beyond):
         prices = []
         for ends in tree.eased:
-            if tree.pair(ends) not in self.problem.eased.members:
+            if not self.problem.eased.has_price(tree.pair(ends)):
                 return False
             prices.append((self.problem.eased.price(tree.pair(ends)),
                            [(*side_of(c), c["share"]) for c in cuts if c["kind"] == "price" and [c["i"], c["j"]] == ends]))
@@ -185,11 +185,12 @@ class Judge:
 
     def lacks_less(self, tree, cut):
         """A test of relative places: does the pair lack less there than the cut says?"""
-        pairs = self.problem.eased.members.get(frozenset((tree.keys[cut["i"]], tree.keys[cut["j"]])), [])
+        eased, ends = self.problem.eased, [tree.keys[cut[c]] for c in "ij"]
+        pairs = [(a, b) for a in ends[0] for b in ends[1]] if self.problem.has_slack else eased.members.get(frozenset(ends), [])
 
         def test(u):
             slope = (Fraction(cut["d"]) - sum(Fraction(n) * Fraction(v) for n, v in zip(cut["n"], u))) / Fraction(cut["share"])
-            return all(self.places.lacks_less(*p, self.seen_from(tree, cut["i"], p[0], u), slope) for p in pairs)
+            return eased.ahead(ends, u) < slope and all(self.places.lacks_less(*p, self.seen_from(tree, cut["i"], p[0], u), slope) for p in pairs)
         return test
 
     def seen_from(self, tree, i, a, u):
@@ -245,7 +246,7 @@ class Judge:
         if piece["a"] not in tree.keys[i] or piece["b"] not in tree.keys[j]:
             return True
         if piece.get("row"):
-            return frozenset((tree.keys[i], tree.keys[j])) not in self.places.rows
+            return frozenset((tree.keys[i], tree.keys[j])) not in self.places.rows or (piece.get("priced", False) and not self.problem.has_slack)
         if "priced" in piece or "joined" in piece:
             return self.says_too_much(piece)
         drawn = random.Random(1)
@@ -273,7 +274,7 @@ class Judge:
         u = tuple(sum(p[c] for p in corners) / len(corners) for c in (0, 1))
         deep = min((abs(float((q[0] - p[0]) * (u[1] - p[1]) - (q[1] - p[1]) * (u[0] - p[0]))) / (math.dist(p, q) or 1)
                     for p, q in zip(corners, corners[1:] + corners[:1])), default=0)
-        says = Fraction(self.places.required(piece["a"], piece["b"])) / self.unit + Fraction(deep * 0.999)
+        says = Fraction(self.problem.full(piece["a"], piece["b"])) / self.unit + Fraction(deep * 0.999)
         return len(corners) > 2 and self.places.lacks_less(piece["a"], piece["b"], self.on_lattice(u), says)
 
     def on_lattice(self, u):

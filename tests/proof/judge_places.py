@@ -14,7 +14,7 @@ class Places:
         self.start, self.kinds, self.rows = {}, {}, {}
 
     def list_conflicts(self, conflicts):
-        self.kinds = {frozenset((c["a"], c["b"])): c["kind"] for c in conflicts if not c.get("inside_block")}
+        self.kinds = {frozenset((c["a"], c["b"])): c["kind"] for c in conflicts if not c.get("inside_block") and c["kind"] != "tight"}
 
     def list_rows(self, lines):
         """What the lines say of neighbours in rows: of two bodies, the first one, the direction from it, and the separation."""
@@ -33,8 +33,9 @@ class Places:
             return True
         gap = Fraction(self.problem.options.gap)
         pairs = [(a, b) for a in one for b in other]
-        pushed = not any(self.kind(*p) for p in pairs if set(p) != asked) and not all(self.pair_may(a, b, (0, 0), None) for a, b in pairs)
-        least = gap - apart if pushed else min(0, gap - apart)
+        pushed = not any(self.kind(*p) for p in pairs if set(p) != asked) and \
+            not all(self.pair_may(a, b, (0, 0), None, self.problem.full(a, b)) for a, b in pairs)
+        least = max(Fraction(self.problem.least_gap) - apart, min(0, gap - apart)) if pushed else min(0, gap - apart)
         sign = 1 if first == one else -1
         return sign * (along[0] * u[0] + along[1] * u[1]) >= least * self.unit
 
@@ -81,12 +82,13 @@ class Places:
         found = self.stood(a, b)[1]
         return math.inf if found is None else found
 
-    def pair_may(self, a, b, u, kind):
-        """May b be at its original place plus u, relative to a at its original place?"""
+    def pair_may(self, a, b, u, kind, owed=None):
+        """May b be at its original place plus u, relative to a at its original place? owed: another distance than the one that they
+        have to keep."""
         p, q = self.moved(a, b, u)
         parted = not (p.area and plane.interiors_meet(p, q))
         if kind is None:
-            owed = self.required(a, b)
+            owed = self.required(a, b) if owed is None else owed
             features = not (self.is_barrier(a) or self.is_barrier(b))
             if not parted and features and self.problem.options.contained == "ignore":
                 return plane.lies_in(q, p) or (q.area and plane.lies_in(p, q))
@@ -104,7 +106,7 @@ class Places:
     def lacks_less(self, a, b, u, most):
         """Do the two lack less than that, in units of the layer, if b is moved by u?"""
         p, q = self.moved(a, b, u)
-        rest = Fraction(most) * self.unit - self.required(a, b)
+        rest = Fraction(most) * self.unit - self.problem.full(a, b)
         if p.area and plane.interiors_meet(p, q):
             depth = plane.least_square(p, q)
             return rest > 0 and depth is not None and depth < rest * rest

@@ -29,7 +29,7 @@ class Lattice:
         exponent = side.numerator.bit_length() - side.denominator.bit_length()
         self.shift = max(1, FINE - exponent - own.k)
         self.side = 1 << (exponent + own.k + self.shift)
-        self.disc = polygon_in_disc(own(problem.options.gap) << (self.shift - 1))
+        self.disc = polygon_in_disc(own(problem.least_gap) << (self.shift - 1))
 
     def ring(self, corners):
         return [(x << self.shift, y << self.shift) for x, y in corners]

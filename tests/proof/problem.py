@@ -118,7 +118,8 @@ class Problem:
         self.ignored = source.fids(options.ignore_where)
         barriers = [b for spec in options.barrier for b in self.read_barriers(spec)]
         self.lattice = Lattice()
-        for number in (options.gap, self.tolerance):
+        self.least_gap = options.gap if options.least_gap is None else options.least_gap
+        for number in (options.gap, self.least_gap, self.tolerance):
             self.lattice.hold(number)
         for polygons, lines in [f[1:] for f in layer.features.values()] + [b[1:3] for b in barriers]:
             for chain in lines + [r for p in polygons for r in p]:
@@ -126,25 +127,27 @@ class Problem:
                     self.lattice.hold(p[0])
                     self.lattice.hold(p[1])
         for barrier in barriers:
-            self.lattice.hold(barrier[3] / 2)
-            self.lattice.hold(barrier[4])
+            for number in (barrier[3] / 2, *barrier[4]):
+                self.lattice.hold(number)
         self.things = {fid: Thing(self.lattice, f[1], f[2]) for fid, f in layer.features.items()}
         self.attributes = {fid: f[0] for fid, f in layer.features.items()}
         self.place = {fid: k for k, fid in enumerate(layer.features)}
         self.skipped = self.ignored | {fid for fid, thing in self.things.items() if not any(o.area for o in thing.outlines)}
-        self.owed, self.fixed, self.limits = {}, fixed, {}
+        self.owed, self.full_of, self.fixed, self.limits = {}, {}, fixed, {}
         self.pairs, self.wholes = set(), {}
         self.listed = {}  # pairs: the kinds of their conflicts
         self.stood = {}   # pairs: see how_it_stood()
         self.occupied = {}  # bodies and sides of squares: see prices.py
         self.sides = set()
-        for key, polygons, lines, width, gap, side in barriers:
+        for key, polygons, lines, width, (gap, full), side in barriers:
             if key in self.things:
                 raise NotRead(f"two barriers are called {key}")
             self.things[key] = Thing(self.lattice, polygons, lines)
-            self.owed[key] = self.lattice(width / 2) + self.lattice(gap)
+            self.owed[key], self.full_of[key] = (self.lattice(width / 2) + self.lattice(v) for v in (gap, full))
             if side:
                 self.sides.add(key)
+        # May pairs fall short of the full distance that they owe, at a price?
+        self.has_slack = self.least_gap < options.gap or any(self.owed[key] < self.full_of[key] for key in self.owed)
         self.anchors, self.side_anchors = {}, {}
         self.rows = self.eased = None  # see rows.py, eased.py
         self.look_at(None)
@@ -155,7 +158,7 @@ class Problem:
         """The options with lengths as doubles in units of the layer."""
         own = argparse.Namespace(**vars(options))
         own.gap = self.units(own.gap, "--gap")
-        for name in ("max_shift", "touch_tolerance"):
+        for name in ("max_shift", "touch_tolerance", "least_gap"):
             if getattr(own, name) is not None:
                 setattr(own, name, self.units(getattr(own, name), "--" + name.replace("_", "-")))
         return own
@@ -167,6 +170,8 @@ class Problem:
         features = layer.features.items() if layer.crs.is_same(self.crs) else in_crs_of(self.crs, layer, source)
         width_of_all = self.units(words.get("width", 0), "--barrier " + spec)
         gap = self.units(words["gap"], "--barrier " + spec) if "gap" in words else self.options.gap
+        least = self.units(words["least"], "--barrier " + spec) if "least" in words else self.options.least_gap
+        gap = gap if least is None else min(least, gap), gap
         for fid, (attributes, polygons, lines) in features:
             if words.get("as") == "boundary":
                 polygons, lines = [], lines + [r + r[:1] for p in polygons for r in p]
@@ -186,10 +191,17 @@ class Problem:
         return key in self.owed
 
     def required(self, a, b):
-        """In units of the lattice."""
+        """The distance that two have to keep, in units of the lattice: with a least gap, the least one."""
         for key in (a, b):
             if self.is_barrier(key):
                 return self.owed[key]
+        return self.lattice(self.least_gap)
+
+    def full(self, a, b):
+        """The distance of which two pay what they lack."""
+        for key in (a, b):
+            if self.is_barrier(key):
+                return self.full_of[key]
         return self.lattice(self.options.gap)
 
     def own_limit(self, fid):
@@ -340,7 +352,7 @@ class Problem:
             pair = tuple(sorted((str(told["a"]), str(told["b"]))))
             demand(pair not in self.pairs, told["a"], "and", told["b"], "are listed twice")
             self.pairs.add(pair)
-            if not told.get("inside_block"):
+            if not told.get("inside_block") and told["kind"] != "tight":
                 self.listed[pair] = told["kind"]
 
     def is_listed(self, a, b):

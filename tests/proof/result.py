@@ -85,6 +85,6 @@ class Result:
         listed = []
         for row, _, _ in self.listed:
             other = row["fid_b"] if row["barrier"] is None else f"{row['barrier']}:{row['barr_fid']}"
-            listed.append(key(row["fid_a"], other, row["kind"], row["reason"], row["blocked_by"] or ""))
+            listed.append(key(row["fid_a"], other, row["kind"], row["reason"] or "", row["blocked_by"] or ""))
         told = [key(c["a"], c["b"], c["kind"], c["reason"], ",".join(map(str, c["blocked_by"]))) for c in conflicts]
         demand(sorted(listed) == sorted(told), "the result lists other conflicts")

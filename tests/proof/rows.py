@@ -177,12 +177,20 @@ class Rows:
         apart, gap = Fraction(line["apart"]), Fraction(self.problem.options.gap)
         demand(apart > 0, "there is no rule for those that do not stand apart:", *one, *other)
         owed = not any(self.problem.is_listed(k, l) for k in one for l in other if {k, l} != asked)
-        return along, gap - apart if owed and self.stood_too_near(one, other) else min(Fraction(0), gap - apart)
+        least = min(Fraction(0), gap - apart)
+        return along, max(Fraction(self.problem.least_gap) - apart, least) if owed and self.stood_too_near(one, other) else least
+
+    def full(self, one, other):
+        """(n, d): with the relative move u the two lack at least d - n.u of the rule of rows with the full gap; None: it asks for nothing."""
+        line, along = self.edge(one, other)
+        apart = Fraction(line["apart"])
+        return (along, Fraction(self.problem.options.gap) - apart) if apart > 0 and self.stood_too_near(one, other) else None
 
     def stood_too_near(self, one, other):
+        """Were members of the two nearer than the full gap?"""
         key = frozenset((one, other))
         if key not in self.near_at_start:
-            self.near_at_start[key] = any(decided.is_too_near(self.problem, k, l) for k in one for l in other)
+            self.near_at_start[key] = any(decided.is_too_near(self.problem, k, l, self.problem.full(k, l)) for k in one for l in other)
         return self.near_at_start[key]
 
     def spring(self, one, other, n, stiff):

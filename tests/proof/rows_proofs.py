@@ -7,6 +7,7 @@ three, --rows FIELD. Then it changes what a file says of rows, one thing at a ti
 import copy
 import json
 import math
+import os
 import random
 import subprocess
 import sys
@@ -52,7 +53,9 @@ def drawn(rng):
 
 def written(name, features):
     towns.write_geojson(name + ".geojson", features)
-    subprocess.run(["ogr2ogr", "-q", "-overwrite", name + ".gpkg", name + ".geojson", "-nln", name], check=True)
+    if os.path.exists(name + ".gpkg"):
+        os.remove(name + ".gpkg")  # it may have another layer
+    subprocess.run(["ogr2ogr", "-q", name + ".gpkg", name + ".geojson", "-nln", name], check=True)
     return name + ".gpkg"
 
 

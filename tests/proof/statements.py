@@ -36,12 +36,13 @@ piece area barrier area in touch
 piece area barrier area overlapping
 piece area barrier segment
 piece area barrier segment apart
+piece area barrier segment in touch
+piece area barrier segment overlapping
 piece joined
 piece priced area area
 piece priced area barrier segment
-piece area barrier segment in touch
-piece area barrier segment overlapping
 piece row
+piece row priced
 piece shadow area point
 piece shadow point area
 piece shadow point barrier segment
@@ -120,6 +121,7 @@ verdict overlap no_room proof
 verdict overlap same_block inside_block
 verdict overlap side proof
 verdict overlap unresolved
+verdict tight
 verdict too_close fixed
 verdict too_close max_shift
 verdict too_close max_shift proof

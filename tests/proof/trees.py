@@ -4,7 +4,7 @@ from math import isqrt
 
 from bodies import Bodies
 from cover import Beyond, Piece, clip, is_covered, is_nowhere, line_of, region_of, square
-from eased import Sloped
+from eased import Ahead, Sloped
 from form import demand, index, shown
 
 
@@ -36,7 +36,7 @@ class Tree(Bodies):
         """(the pair, linear, square): lacking s costs linear s + square s^2."""
         one, other = (self.bodies[index(k, len(self.bodies), "body")] for k in (i, j))
         eased = self.problem.eased
-        demand(frozenset((one, other)) in eased.members, "there is no price of", *one, *other)
+        demand(eased.has_price(frozenset((one, other))), "there is no price of", *one, *other)
         pair = frozenset((one, other))
         return pair, *eased.price(pair)
 
@@ -137,6 +137,8 @@ class Tree(Bodies):
         problem.demand_owed(a, b)
         if told.get("row"):
             demand(problem.rows, "a rule without a row")
+            if told.get("priced"):
+                return (i, j), self.read_row_price(i, j)
             return (i, j), Beyond(line_of(*problem.rows.rule(self.bodies[i], self.bodies[j]), self.unit))
         if "joined" in told:
             return (i, j), self.read_joined(told)
@@ -149,13 +151,19 @@ class Tree(Bodies):
             self.root(i, j)
             problem.demand_outside(a, b, self.reach[i, j])
             parts = problem.demand_part(a, told["A"]), problem.demand_part(b, told["B"])
-        owed = 0 if shadow else problem.required(a, b) if priced else problem.clearance(a, b, told.get("clearance"))
+        owed = 0 if shadow else problem.full(a, b) if priced else problem.clearance(a, b, told.get("clearance"))
         return (i, j), Piece(*parts, owed, shadow, priced)
+
+    def read_row_price(self, i, j):
+        """What the two lack at least of the rule of rows with the full gap."""
+        rule = self.problem.has_slack and self.problem.rows.full(self.bodies[i], self.bodies[j])
+        demand(rule, "nothing of a row is lacked by", *self.bodies[i], *self.bodies[j])
+        return Ahead(*rule, self.unit)
 
     def read_joined(self, told):
         """A polygon that lies in the union of those of priced pieces of the same two things."""
         of = [self.pieces_told[index(k, len(self.pieces_told), "piece")] for k in told["pieces"]]
-        demand(all(p.get("priced") and all(p[key] == told[key] for key in "ijab") for p in of), "a polygon joined of other pieces")
+        demand(all("A" in p and p.get("priced") and all(p[key] == told[key] for key in "ijab") for p in of), "a polygon joined of other pieces")
         pieces = [self.piece(k, told["i"], told["j"]) for k in told["pieces"]]
         corners = [self.problem.lattice.point(p) for p in told["joined"]]
         inner = [Piece(piece.corners, [(0, 0)], 0, False) for piece in pieces]

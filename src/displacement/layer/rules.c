@@ -53,8 +53,6 @@ static sunder_status check_full_gap(const sunder_layer_options *options, sunder_
 {
     if (!(options->full_gap >= 0) || !isfinite(options->full_gap))
         return sunder_i_fail(err, SUNDER_EARG, "the full gap, %g, is negative or not finite", options->full_gap);
-    if (options->full_gap > options->gap && options->keep_trees)
-        return sunder_i_fail(err, SUNDER_EARG, "no trees are kept for a layer with a full gap");
     return SUNDER_OK;
 }
 
