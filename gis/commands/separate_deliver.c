@@ -15,6 +15,7 @@ static bool write_page(const gis_separate_run *run, gis_text *page, gis_error *e
     const gis_page_request request = {
         .input = &run->input,
         .view = &view,
+        .report = run->request.rules.hide ? run->report : NULL,
         .summary = &run->summary,
         .unit = gis_separate_unit(run),
         .output = run->to.output,

@@ -98,31 +98,24 @@ static void json_rows(gis_json *out, const sunder_layer_summary *summary)
     gis_json_close(out, '}');
 }
 
-static int by_class(const void *a, const void *b)
-{
-    const uint32_t p = *(const uint32_t *)a, q = *(const uint32_t *)b;
-    return p < q ? -1 : p > q;
-}
-
-/* The number of hidden features of each class. */
+/* The hidden features of each class, their weight, and its lower bound. */
 static void json_by_class(gis_json *out, const gis_separate_run *run)
 {
-    uint32_t *class = malloc((run->input.n + 1) * sizeof *class);
-    size_t n = 0;
-    for (size_t i = 0; class && i < run->input.n; i++)
-        if (sunder_report_status(run->report, i) == SUNDER_FEATURE_HIDDEN)
-            class[n++] = gis_layer_hiding_cost(&run->input, i).hierarchy;
-    if (class) qsort(class, n, sizeof *class, by_class);
+    size_t n;
+    const sunder_hiding_class *class = sunder_report_hiding_classes(run->report, &n);
     gis_json_key(out, "by_class");
     gis_json_open(out, '{');
-    for (size_t k = 0, end; k < n; k = end) {
+    for (size_t k = 0; k < n; k++) {
         char key[16] = "null";
-        for (end = k; end < n && class[end] == class[k];) end++;
-        if (class[k] != GIS_LAST_CLASS) snprintf(key, sizeof key, "%u", class[k]);
-        gis_json_put_size(out, key, end - k);
+        if (class[k].hierarchy != GIS_LAST_CLASS) snprintf(key, sizeof key, "%u", class[k].hierarchy);
+        gis_json_key(out, key);
+        gis_json_open(out, '{');
+        gis_json_put_size(out, "count", class[k].hidden);
+        gis_json_put_double(out, "weight", (double)class[k].weight / GIS_HIDING_UNIT);
+        gis_json_put_double(out, "lower_bound", (double)class[k].least / GIS_HIDING_UNIT);
+        gis_json_close(out, '}');
     }
     gis_json_close(out, '}');
-    free(class);
 }
 
 static void json_hidden(gis_json *out, const gis_separate_run *run)

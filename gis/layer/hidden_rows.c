@@ -6,6 +6,7 @@
 #include "sunder_hiding.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 static bool begin_hidden(gis_sink *sink, const gis_layer_input *input, gis_sink_layer **layer, gis_error *error)
 {
@@ -28,9 +29,7 @@ static bool is_better(const sunder_clause *p, const sunder_clause *q)
     return p->members != q->members ? p->members < q->members : p->things < q->things;
 }
 
-/* Returns an array [n], which the caller frees: the clause that explains why a feature is hidden; NULL where there is
- * none. Returns NULL if memory is out. */
-static const sunder_clause **find_reasons(const sunder_report *report, size_t n)
+const sunder_clause **gis_hidden_reasons(const sunder_report *report, size_t n)
 {
     const sunder_clause **reason = calloc(n + 1, sizeof *reason);
     size_t clauses;
@@ -41,6 +40,23 @@ static const sunder_clause **find_reasons(const sunder_report *report, size_t n)
             if (is_better(&clause[k], *of)) *of = &clause[k];
         }
     return reason;
+}
+
+/* Writes "tentative: " before the things of a clause without a proof. */
+static bool put_because(const gis_things *things, const sunder_clause *why, gis_conflict_texts *scratch,
+                        gis_value *value, gis_error *error)
+{
+    static const char mark[] = "tentative: ";
+    if (!gis_things_value(things, why->thing, why->things, &scratch->blocked_by, value, error)) return false;
+    if (why->proved) return true;
+    const size_t length = strlen(scratch->blocked_by);
+    char *text = malloc(length + sizeof mark);
+    if (!text) return gis_no_memory(error);
+    memcpy(text, mark, sizeof mark - 1);
+    memcpy(text + sizeof mark - 1, scratch->blocked_by, length + 1);
+    free(scratch->blocked_by);
+    value->as.text = scratch->blocked_by = text;
+    return true;
 }
 
 static bool write_hidden(gis_sink_layer *layer, const gis_layer_input *input, size_t i, const sunder_clause *why,
@@ -59,7 +75,7 @@ static bool write_hidden(gis_sink_layer *layer, const gis_layer_input *input, si
         none,
     };
     bool ok = gis_go_on(error) && gis_id_value(input, i, &scratch.id[0], &values[1], error) &&
-              gis_things_value(&things, why->thing, why->things, &scratch.blocked_by, &values[5], error);
+              put_because(&things, why, &scratch, &values[5], error);
     OGRGeometryH geometry = ok ? OGR_G_Clone(gis_source_geometry(input->source, i)) : NULL;
     ok = ok && gis_sink_write(layer, NULL, geometry, values, error);
     gis_conflict_texts_clear(&scratch);
@@ -70,7 +86,7 @@ bool gis_write_hidden(gis_sink *sink, const gis_layer_input *input, const sunder
 {
     gis_sink_layer *layer;
     if (!begin_hidden(sink, input, &layer, error)) return false;
-    const sunder_clause **reason = find_reasons(report, input->n);
+    const sunder_clause **reason = gis_hidden_reasons(report, input->n);
     bool ok = reason || gis_no_memory(error);
     for (size_t i = 0; i < input->n && ok; i++)
         if (sunder_report_status(report, i) == SUNDER_FEATURE_HIDDEN)

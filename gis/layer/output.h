@@ -21,6 +21,9 @@ bool gis_write_symbols_anew(gis_sink *sink, const gis_layer_input *input, bool m
 bool gis_write_symbols(gis_sink *sink, const gis_layer_input *input, const sunder_report *report, gis_error *error);
 
 /* Writes LAYER_hidden: the hidden features where they stood, and why each is hidden (hidden_rows.c). */
+/* Returns an array [n], which the caller frees: the clause that explains why a feature is hidden; NULL where there is
+ * none. Returns NULL if memory is out. */
+const sunder_clause **gis_hidden_reasons(const sunder_report *report, size_t n);
 bool gis_write_hidden(gis_sink *sink, const gis_layer_input *input, const sunder_report *report, gis_error *error);
 
 /* A feature's FID as a value; null if it has none. */

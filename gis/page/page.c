@@ -42,6 +42,7 @@ static const struct {
     {"moves", NULL, gis_page_moves},
     {"rows", NULL, gis_page_rows},
     {"blocked", NULL, gis_page_blocked},
+    {"hidden", NULL, gis_page_hidden},
     {"certificate", NULL, gis_page_certificate},
     {"colophon", NULL, gis_page_colophon},
 };

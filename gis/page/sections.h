@@ -16,6 +16,7 @@ gis_page_section gis_page_places;      /* close-ups, the worst conflicts first *
 gis_page_section gis_page_moves;       /* the histogram */
 gis_page_section gis_page_rows;        /* the rows of neighbours, with close-ups of the most bent rows */
 gis_page_section gis_page_blocked;     /* the table of remaining conflicts */
+gis_page_section gis_page_hidden;      /* hidden features: sums by class, the table, close-ups */
 gis_page_section gis_page_certificate; /* what is proved, and the options of the run */
 gis_page_section gis_page_colophon;    /* version and date */
 

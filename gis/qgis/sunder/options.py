@@ -111,6 +111,18 @@ OPTIONS = (
            "Two factors of the cost of a move. 3,0.3: as usual; 10,1: stiff.", ""),
     Option("--ease", TEXT, ("separate",), "Price of what pairs that remain in conflict lack",
            "A number above 0: they come as near to their distance as it pays for; no: they are not eased; empty: 30.", ""),
+    # ---- No room ----
+    Option("--hide", FLAG, ("separate",), "Leave out features that cannot be given room",
+           "As few as possible, with a proved lower bound. They stay in the layer, with 1 in sunder_inv.", False),
+    Option("--hierarchy-field", NUMERIC_FIELD, LAYERS, "Field: how important features are that may be left out",
+           "0: never left out; 1: the most important others; null: the least important of all."),
+    Option("--hide-weight", CHOICE, ("separate",), "Weight of what is left out, within its class",
+           "The sum of these weights is made small, the most important class first.",
+           2, ("1", "area", "sqrt-area"), ("1 for each feature", "Its area", "The square root of its area")),
+    Option("--drop-hidden", FLAG, ("separate",), "Features that are left out are not in the result",
+           "Otherwise they are, unmoved, with 1 in sunder_inv.", False),
+    Option("--hidden-field", NUMERIC_FIELD, ("check",), "Field: features that are left out",
+           "Those with a value other than 0 owe nothing; in a result of Sunder: sunder_inv."),
     # ---- Symbols ----
     Option("--symbol", TEXT, LAYERS, "Points: the symbol at each point",
            "disc:4m, square:5m, rectangle:8x3, or WKT of a polygon relative to the point."),
@@ -170,6 +182,9 @@ NOUNS = {
     "--allow-jumps": "checkbox to allow jumps", "--list-inside": "checkbox to list conflicts inside blocks",
     "--rows": "choice of rows", "--row-stiffness": "stiffness of rows",
     "--ease": "price of what pairs lack",
+    "--hide": "checkbox to leave features out", "--hierarchy-field": "field of the classes",
+    "--hide-weight": "weight of what is left out", "--drop-hidden": "checkbox to drop what is left out",
+    "--hidden-field": "field of what is left out",
     "--symbol": "symbol", "--symbol-field": "field of the symbols",
     "--symbol-size-field": "field of the symbols' sizes",
     "--dissolve-field": "field to dissolve by", "--explode": "checkbox for single polygons", "--align": "checkbox to turn the shape",
@@ -183,7 +198,6 @@ NOUNS = {
 _QGIS_CHOOSES = "which features is chosen in QGIS: by the layer's filter, its selection, or a layer made before"
 _QGIS_WRITES = "the program writes a GeoPackage of the plug-in's; QGIS writes it where the dialog says"
 _OURS = "set by the plug-in"
-_HIDING = "features are left out in a shell, so far"
 _SHARDS = "a layer in shards is for clusters, which have no dialogs"
 # The commands that no dialog runs, with the reasons.
 LEFT_OUT_COMMANDS = {"plan": _SHARDS, "merge": _SHARDS}
@@ -201,8 +215,6 @@ LEFT_OUT = {
     "--exact": "a layer holds doubles; rationals are for the shell",
     "--allow-conflicts": "what remains is told as a warning, not as a failure",
     "--shard": _SHARDS,
-    "--hide": _HIDING, "--hierarchy-field": _HIDING, "--hide-weight": _HIDING, "--drop-hidden": _HIDING,
-    "--hidden-field": _HIDING,
     "--progress": _OURS, "--max-memory": "layers that memory does not hold are for the shell", "--quiet": _OURS, "--stats": _OURS, "--report": "an output", "--proof": "an output",
     "--trace": "for developers, in a shell", "--log": "an output", "--messages": _OURS, "--help": "the panel beside the dialog",
 }

@@ -12,7 +12,7 @@ Buildings, or symbols of points, keep their shape and are only moved. Roads and 
 result is checked exactly on the coordinates as written, and comes with a proved lower bound of the cost.
 
 Layers: the features, moved, with their attributes; the moves as lines; the conflicts that remain, each with its
-reason; the contact forces; rows of houses that were found; for points their symbols. The report is a page for the browser: the map before and
+reason; the contact forces; rows of houses that were found; for points their symbols; features that are left out, and why. The report is a page for the browser: the map before and
 after."""
     main = "separated"
     movable = True
@@ -24,6 +24,7 @@ after."""
         Output("PUSHES", "_pushes", "Pushes", LINES, False, None),
         Output("ROWS", "_rows", "Rows of houses", LINES, False, None),
         Output("SYMBOLS", "_symbols", "Symbols (of points)", POLYGONS, False, None),
+        Output("HIDDEN", "_hidden", "Features that are left out", ANY, False, None),
     )
     files = (
         File("REPORT", "--report", "Report (a page for the browser)", "HTML files (*.html)"),
