@@ -96,7 +96,7 @@ class Checker:
         problem.blocks.demand_all(proof.blocks)
         demand(("hide" in proof.head) == bool(self.hiding), "the proof is of another problem, with or without hidden features")
         if self.hiding:
-            self.hiding.begin(proof.head["hide"], proof.hidden)
+            self.hiding.begin(proof.hidden)
         problem.list_conflicts(proof.conflicts)
         problem.eased.list_conflicts(proof.conflicts)
         demand(problem.rows or not proof.rows, "rows, where none are looked for")

@@ -24,6 +24,7 @@ import false_proofs
 import forgeries
 import form
 import given_rows
+import hiding
 import prices
 import problem
 import result
@@ -31,7 +32,7 @@ import rows
 import trees
 import verdicts
 
-MODULES = {m.__name__ + ".py": m for m in (trees, bodies, prices, verdicts, decided, problem, rows, given_rows, eased)}
+MODULES = {m.__name__ + ".py": m for m in (trees, bodies, prices, verdicts, decided, problem, rows, given_rows, eased, hiding)}
 ENDLESS = {"a node has two parents:", "a row that branches:"}  # without these tests a search would not end
 UNSEEN = {
     "a side, where there is no limit": "of two anchors that lines shut in, but for a narrow way far away: no case is made",

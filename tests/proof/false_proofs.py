@@ -106,11 +106,12 @@ class Case:
 
 def all_cases():
     import false_bounds
+    import false_hidings
     import false_lattices
     import false_prices
     import false_rows
     import false_verdicts
-    return [case for module in (false_bounds, false_prices, false_rows, false_verdicts, false_lattices) for case in module.CASES]
+    return [case for module in (false_bounds, false_hidings, false_prices, false_rows, false_verdicts, false_lattices) for case in module.CASES]
 
 
 def prepared(directory, names=()):

@@ -22,6 +22,7 @@ from fractions import Fraction
 import check_proof
 import form
 from judge import Judge
+from judge_hiding import HidingJudge
 from statements import NEEDED, statements_of
 
 MARK = "\1"  # marks places at which text is written that JSON does not allow, or would not write that way
@@ -41,7 +42,7 @@ class Run:
         status, self.said = check_proof.answer(self.checker, lambda: self.lines)
         assert status == 0, f"{self.path}: what is true is {self.said}"
         self.claims = claims_of(self.lines)
-        self.judge = Judge(self.checker.problem, self.checker.result, self.lines)
+        self.judge = Judge(self.checker.problem, self.checker.result, self.lines, self.checker.hiding)
         result, problem = self.checker.result, self.checker.problem
         self.cost = sum((Fraction(problem.weight(f)) * result.square(f) for f in result.moved()), Fraction(0))
         self.cost += (problem.rows.cost(result.moves.get) if problem.rows else 0) + problem.eased.cost(result.moves.get)
@@ -102,7 +103,9 @@ class Run:
     def more_than_true(self, found):
         if found["bound"] > self.cost:
             return f"a bound of {float(found['bound'])} where the result costs {float(self.cost)}"
-        for key in ("blocks", "conflicts"):
+        if HidingJudge.is_less(self.claims["hide"], found["hide"]):
+            return f"a bound of hidden features {found['hide']}, and not {self.claims['hide']}"
+        for key in ("blocks", "conflicts", "hidden"):
             if found[key] != self.claims[key]:
                 return f"other {key}"
         for pair, numbers in found["rows"].items():
@@ -122,6 +125,7 @@ def claims_of(lines):
     return {"bound": Fraction(lines[0]["lower_bound"]), "conflicts": pairs,
             "rows": {(line["a"], line["b"]): [*line["along"], line["apart"]] for line in lines if "row" in line},
             "crowded": {key(c) for c in conflicts if c.get("crowded")},
+            "hide": HidingJudge.vector(lines[0].get("hide", {}).get("bound", ())), "hidden": sorted(t["fid"] for t in lines if "hidden" in t),
             "blocks": sorted(tuple(line["block"]) for line in lines if "block" in line)}
 
 
@@ -139,6 +143,11 @@ def counted(lines, claim):
         told[0]["lower_bound"] = sum(t["bound"] for t in told[1:] if "group" in t) if claim else told[0]["lower_bound"]
     for k, t in enumerate(t for t in told if "conflict" in t):
         t["conflict"] = k
+    for name in ("hidden", "clause", "choice") if told and "hide" in told[0] else ():
+        own = [t for t in told[1:] if name in t]
+        told[0]["hide"][name if name == "hidden" else name + "s"] = len(own)
+        for k, t in enumerate(own):
+            t[name] = k
     groups = sorted({t["group"] for t in told if "group" in t})
     for t in told:
         if "group" in t:
@@ -223,7 +232,7 @@ def other_options(words):
     for extra in (["--gap", "0.75"], ["--gap", "2.5"], ["--max-shift", "0.25"], ["--max-shift", "1000"], ["--fixed-where", "fid = 1"],
                   ["--ignore-where", "fid = 1"], ["--no-blocks"], ["--allow-jumps"], ["--contained", "ignore"], ["--weight", "area"],
                   ["--touch-tolerance", "0.01"], ["--layer", "nowhere"], ["--rows", "auto"], ["--rows", "no"],
-                  ["--row-stiffness", "2,0.2"], ["--ease", "no"], ["--ease", "7"]):
+                  ["--row-stiffness", "2,0.2"], ["--ease", "no"], ["--ease", "7"], ["--hide"], ["--hide-weight", "1"]):
         yield words + extra  # if an option is given twice, the last one counts
     for k, word in enumerate(words):
         if word == "--barrier":
@@ -330,7 +339,8 @@ proof.side_b proof.side_c proof.still proof.row group bound bodies bodies.featur
 bodies.features.max_shift bodies.features.anchor bodies.barrier bodies.weight bodies.shift pieces pieces.i pieces.j pieces.a pieces.b
 pieces.A pieces.B pieces.shadow pieces.clearance nodes nodes.parent nodes.cuts nodes.cuts.kind nodes.cuts.i nodes.cuts.j nodes.cuts.n
 nodes.cuts.d nodes.cuts.pieces nodes.cuts.share pieces.priced pieces.joined pieces.pieces eased ease row_stiffness row along apart pieces.row springs springs.i springs.j springs.n springs.stiff nodes.forces nodes.by nodes.empty nodes.empty.i nodes.empty.j nodes.empty.pieces prices prices.side
-prices.unit prices.x prices.y prices.columns prices.rows crowded""".split()
+prices.unit prices.x prices.y prices.columns prices.rows crowded hide hide.hidden hide.clauses hide.choices hide.bound hidden fid clause
+members choice nodes.split nodes.level nodes.shares""".split()
 
 
 def main(words):

@@ -165,6 +165,7 @@ question = either("row", members({"a": thing, "b": thing, "row": true, "ways": a
                   question)
 leaf = members({"forces": all_of(way_force, 1)}, {"still": all_of(pair_of(whole, whole), 2, 2)})
 nodes_of_proof = all_of(either("ways", question, leaf), 1)
+nodes_of_clause = all_of(either("ways", question, members({"forces": all_of(way_force, 1)})), 1)
 conflict = members({"conflict": whole, "a": thing, "b": thing, "kind": one_of(KINDS), "reason": one_of(("", *REASONS)),
                     "blocked_by": all_of(thing)},
                    {"crowded": true, "inside_block": true, "within": positive,
@@ -211,7 +212,7 @@ head = members({"sunder_proof": whole, "layer": name, "gap": not_negative, "max_
 block = members({"block": all_of(integer, 2)})
 hidden = members({"hidden": whole, "fid": integer})
 clause = members({"clause": whole, "members": all_of(pair_of(integer, whole), 1), "a": thing, "b": thing, "reason": one_of(REASONS)},
-                 {"crowded": true, "within": positive, "proof": nodes_of_proof})
+                 {"crowded": true, "within": positive, "proof": nodes_of_clause})
 choice_node = either("split", members({"split": integer, "level": whole}),
                      either("unmet", members({"unmet": whole}), members({"shares": all_of(listed_as(whole, or_null(whole), integer))})))
 choice = members({"choice": whole, "bound": weights, "nodes": all_of(choice_node, 1)})
@@ -259,7 +260,7 @@ class Proof:
                 break
         demand(self.head, "an empty proof")
         demand(len(self.conflicts) == self.head["conflicts"], "lines are missing")
-        demand("hide" in self.head or not self.hidden, "hidden features, where none are wanted")
+        demand(len(self.hidden) == self.head.get("hide", {}).get("hidden", 0), "lines are missing, or hidden features are not wanted")
         demand([c["conflict"] for c in self.conflicts] == list(range(len(self.conflicts))), "conflicts are not in order")
 
     def entries(self):

@@ -73,15 +73,6 @@ def pull_share(lines):
     return False
 
 
-def share_twice(lines):
-    for line in with_key(lines, "choice"):
-        for node in line["nodes"]:
-            if node.get("shares"):
-                node["shares"].append(node["shares"][0])
-                return ("a share that is there twice",)
-    return False
-
-
 def clause_twice(lines):
     """A clause doubled, with a share of its own, so that a feature pays twice."""
     clauses, found = with_key(lines, "clause"), shares(lines)
@@ -226,7 +217,7 @@ def clause_of_one_block(lines):
 
 HIDES = {"member left out": leave_member_out, "member never hidden": add_never_hidden, "level": other_level, "member twice": member_twice,
          "clause without proof": clause_without_proof, "raised share": raise_share, "lowered share": lower_share, "share below 0": pull_share,
-         "share twice": share_twice, "clause twice": clause_twice, "share of another class": other_class, "bound of another class": higher_class,
+         "clause twice": clause_twice, "share of another class": other_class, "bound of another class": higher_class,
          "raised bound of hidden": raise_claim, "raised tree of hidden": raise_tree, "dropped leaf of hidden": drop_leaf,
          "leaf more": leaf_more, "split at no level": split_nothing, "called unmet": call_unmet, "share of a met clause": met_clause,
          "tree of hidden twice": tree_twice, "hidden twice": hide_twice, "hidden important": hide_important, "hidden shown": show_hidden,

@@ -28,8 +28,7 @@ def vector(told):
     found = {}
     for c, weight in told:
         c = LAST if c is None else c
-        demand(c not in found, "a class that is there twice:", c)
-        found[c] = weight
+        found[c] = found.get(c, 0) + weight
     return found
 
 
@@ -50,7 +49,6 @@ class Clause(Verdict):
             seen.add(at)
             node = self.nodes[at]
             if "ways" not in node:
-                demand("still" not in node, "places of doubles, which a block without some of its members does not have")
                 self.check_leaf(node, way_here)
                 continue
             self.check_question(node)
@@ -65,14 +63,9 @@ class Clause(Verdict):
     def check_row(self, node):
         self.check_row_of(node)
 
-    def stood(self, a, b):
-        """A pair that is held to what it had at the start: if its interiors met it has to do better, and if not, as long as it owes more."""
-        square, depth, _ = self.problem.how_it_stood(a, b)
-        if square < 0:
-            demand(depth is not None, "held to a depth that is not known:", a, b)
-            return True, depth
+    def demand_held(self, a, b, square, inside):
+        """A pair that is held to its distance at the start owes as much. If its interiors met, it has to do better in any case."""
         demand(square <= Fraction(self.problem.required(a, b)) ** 2, "more is asked of", a, b, "than they owe")
-        return False, square
 
 
 class Hiding:
@@ -105,10 +98,9 @@ class Hiding:
 
     # ---- The lines
 
-    def begin(self, head, hidden):
-        """head: `hide` of the first line; hidden: the features that are left out, as the file says."""
+    def begin(self, hidden):
+        """hidden: the features that are left out, as the file says."""
         problem = self.problem
-        demand(len(hidden) == head["hidden"], "lines are missing")
         demand(len(set(hidden)) == len(hidden), "a feature is hidden twice")
         for fid in hidden:
             demand(fid in problem.place and fid not in problem.skipped, "there is no feature", fid)
@@ -140,11 +132,10 @@ class Hiding:
         self.problem.demand_pair(a, b)
         demand(b not in self.problem.block(a), a, "and", b, "are of one block")
         if "proof" in told:
-            demand(reason not in ("kept", "same_block", "fixed"), "a proof that nothing is claimed of, with the reason", reason)
             Clause(self.problem, told).check()
             return
         demand(reason in ("fixed", "max_shift"), "no proof of a clause of", a, "and", b)
-        decided.check(self.problem, {**told, "blocked_by": []})
+        decided.check(self.problem, {**told, "blocked_by": [], "kind": "overlap"})
 
     def check_choice(self, told):
         """A tree, in preorder. Returns (its bound, the features that it is about)."""
@@ -176,10 +167,7 @@ class Hiding:
         than the level costs beyond the least."""
         of, total = {}, {}
         for k, c, weight in shares:
-            share = of.setdefault(k, {})
-            c = LAST if c is None else c
-            demand(c not in share, "a share that is there twice")
-            share[c] = weight
+            of[k] = plus(of.get(k, {}), {LAST if c is None else c: weight})
         used = {}
         for k, share in of.items():
             demand(not is_less(share, {}), "a share less than nothing")

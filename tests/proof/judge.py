@@ -17,6 +17,7 @@ from fractions import Fraction
 
 from cover import hull
 from form import shown
+from judge_hiding import HidingJudge
 from judge_moves import cheapest, meeting
 from judge_places import Places, polygon_between
 
@@ -25,9 +26,10 @@ MOST_NODES = 10  # nodes tested, of those that a change affects
 
 
 class Judge:
-    def __init__(self, problem, result, lines):
+    def __init__(self, problem, result, lines, hiding=None):
         self.problem, self.result, self.lines = problem, result, lines
         self.places, self.unit = Places(problem), problem.lattice.unit
+        self.hides = HidingJudge(problem, hiding)
         self.said = {f["fid"]: f for line in lines for b in line.get("bodies", ()) for f in b.get("features", ())}
         self.still = {fids(b) for line in lines for b in line.get("bodies", ()) if b["weight"] is None}
 
@@ -45,7 +47,12 @@ class Judge:
             if wrong:
                 return wrong
         for line in lines:
-            if id(line) not in old:
+            if id(line) not in old and ("clause" in line or "choice" in line):
+                wrong = self.hides.wrong_with(line, lines)
+                if wrong:
+                    return wrong
+        for line in lines:
+            if id(line) not in old and not {"clause", "choice", "hidden"} & set(line):
                 before = next((t for t in self.lines if kind_of(t) == kind_of(line)), None)
                 wrong = self.wrong_with_tree(line, before) if "group" in line else \
                     self.wrong_with_verdict(line, before) if "proof" in line else None

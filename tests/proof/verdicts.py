@@ -162,14 +162,18 @@ class Verdict:
     def stood(self, a, b):
         """State of another listed pair at the start: did the interiors meet, and the square of the least translation,
         or of the distance."""
-        demand(self.is_listed(a, b), "held to what it had, and not listed:", a, b)
-        demand(self.kinds[self.key(a, b)] not in ("contained", "duplicate"), "what is contained may stay so")
         square, depth, inside = self.problem.how_it_stood(a, b)
+        self.demand_held(a, b, square, inside)
         if square < 0:
-            demand(not inside, "what is in another may go deeper:", a, b)
             demand(depth is not None, "held to a depth that is not known:", a, b)
             return True, depth
         return False, square
+
+    def demand_held(self, a, b, square, inside):
+        """May the pair be held to what it had?"""
+        demand(self.is_listed(a, b), "held to what it had, and not listed:", a, b)
+        demand(self.kinds[self.key(a, b)] not in ("contained", "duplicate"), "what is contained may stay so")
+        demand(square >= 0 or not inside, "what is in another may go deeper:", a, b)
 
     def check_ways(self, polygon, ways, inside, square):
         """The set behind all ways is bounded, and each of its corners is in conflict: its squared distance from the
