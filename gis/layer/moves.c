@@ -75,13 +75,71 @@ typedef struct pairing {
     const gis_layer_input *now;
 } pairing;
 
-static void take_pair(pairing *p, size_t was, size_t is)
+/* Does t take each vertex and control point to its new place, as far as both geometries have them? If not, t is changed
+ * so that it does so for the first at which it does not. */
+static bool is_move(OGRGeometryH before, OGRGeometryH after, double t[2])
+{
+    const int members = OGR_G_GetGeometryCount(before), points = members ? 0 : OGR_G_GetPointCount(before);
+    for (int i = 0; i < members && i < OGR_G_GetGeometryCount(after); i++)
+        if (!is_move(OGR_G_GetGeometryRef(before, i), OGR_G_GetGeometryRef(after, i), t)) return false;
+    for (int i = 0; i < points && i < OGR_G_GetPointCount(after); i++) {
+        const double from[2] = {OGR_G_GetX(before, i), OGR_G_GetY(before, i)},
+                     to[2] = {OGR_G_GetX(after, i), OGR_G_GetY(after, i)};
+        for (int c = 0; c < 2; c++) {
+            if (from[c] + t[c] == to[c]) continue;
+            t[c] = to[c] - from[c];
+            return false;
+        }
+    }
+    return true;
+}
+
+/* Where a coordinate is rounded the difference is not the move. That of another vertex is it then, of the first few. */
+enum { MOVES_TRIED = 16 };
+
+/* Finds the move t that took one geometry with arcs to another. The control points of arcs are moved, and the corners
+ * of the polylines that stand for them then differ from those before by other amounts in the last place. */
+static bool find_move_of_arcs(OGRGeometryH before, OGRGeometryH after, double t[2])
+{
+    if (!before || !after || !OGR_G_HasCurveGeometry(before, TRUE) || !OGR_G_HasCurveGeometry(after, TRUE))
+        return false;
+    int tried = 0;
+    t[0] = t[1] = 0;
+    while (!is_move(before, after, t))
+        if (tried++ == MOVES_TRIED) return false;
+    OGRGeometryH moved = OGR_G_Clone(before);
+    const bool found = moved && gis_geometry_translate(moved, t[0], t[1], NULL) && OGR_G_Equals(moved, after);
+    OGR_G_DestroyGeometry(moved);
+    return found;
+}
+
+/* If the features of pair k have arcs, and one is a translate of the other, the feature after is that before, moved. */
+static bool move_arcs(pairing *p, size_t k, size_t is, gis_error *error)
+{
+    gis_moves *m = p->moves;
+    double t[2];
+    bool exact;
+    sunder_error why;
+    if (!p->before[k].shape || !p->after[k].shape ||
+        !find_move_of_arcs(gis_source_geometry(m->original.source, m->matched[k]),
+                           gis_source_geometry(p->now->source, is), t))
+        return true;
+    sunder_shape **moved = &m->with_arcs[m->n_with_arcs];
+    if (sunder_shape_translate(p->before[k].shape, t[0], t[1], moved, &exact, &why) != SUNDER_OK)
+        return gis_core_failed(error, "--before", &why);
+    p->after[k].shape = *moved;
+    m->n_with_arcs++;
+    return true;
+}
+
+static bool take_pair(pairing *p, size_t was, size_t is, gis_error *error)
 {
     gis_moves *m = p->moves;
     p->before[m->n] = m->original.feature[was];
     p->after[m->n] = p->now->feature[is];
     p->before[m->n].block = p->now->feature[is].block;
     m->matched[m->n++] = was;
+    return move_arcs(p, m->n - 1, is, error);
 }
 
 /* Matches features of both layers, in the order of the original. Features that are only in the original are listed as
@@ -99,9 +157,10 @@ static bool match_features(pairing *p, gis_error *error)
         ok = key.key || gis_no_memory(error);
         const known *other = ok ? bsearch(&key, keys, now->n, sizeof *keys, by_key) : NULL;
         free(key.key);
-        if (other)
-            found++, take_pair(p, i, other->feature);
-        else if (ok)
+        if (other) {
+            found++;
+            ok = take_pair(p, i, other->feature, error);
+        } else if (ok)
             m->lost[m->n_lost++] = i;
     }
     if (ok && found < now->n)
@@ -166,9 +225,10 @@ bool gis_moves_check(const gis_layer_input_request *request, const gis_layer_inp
     size_t room = out->original.n + 1;
     out->matched = calloc(room, sizeof *out->matched);
     out->lost = calloc(room, sizeof *out->lost);
+    out->with_arcs = calloc(room, sizeof *out->with_arcs);
     p.before = calloc(room, sizeof *p.before);
     p.after = calloc(room, sizeof *p.after);
-    bool ok = (out->matched && out->lost && p.before && p.after) || gis_no_memory(error);
+    bool ok = (out->matched && out->lost && out->with_arcs && p.before && p.after) || gis_no_memory(error);
     ok = ok && match_features(&p, error) && make_layers(&p, error) &&
          gis_layer_run_moves(&out->original, out->before, out->after, out->matched, progress, &out->report, error);
     free(p.before);
@@ -181,6 +241,8 @@ void gis_moves_clear(gis_moves *moves)
     sunder_report_free(moves->report);
     sunder_layer_free(moves->before);
     sunder_layer_free(moves->after);
+    for (size_t k = 0; k < moves->n_with_arcs; k++) sunder_shape_free(moves->with_arcs[k]);
+    free(moves->with_arcs);
     free(moves->matched);
     free(moves->lost);
     gis_layer_input_clear(&moves->original);

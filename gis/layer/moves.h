@@ -13,6 +13,8 @@ typedef struct gis_moves {
     size_t *matched; /* [n] numbers of the features in the original */
     size_t *lost;    /* [n_lost] numbers in the original of features that are missing in the checked layer */
     size_t n, n_lost;
+    sunder_shape **with_arcs; /* [n_with_arcs] moved features with arcs, which `after` has */
+    size_t n_with_arcs;
 } gis_moves;
 
 /* Reads the original as `request` says, matches features, and has the core check. Call gis_moves_clear() in any

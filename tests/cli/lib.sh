@@ -25,6 +25,37 @@ run() {
     status=0
     "$SUNDER" "$@" >out 2>err || status=$?
     [ "${1:-},$status" != separate,3 ] || demand_upheld "$@"
+    case ${1:-},$status in separate,0 | separate,3) demand_rules_kept "$@" ;; esac
+}
+
+# After separate IN.gpkg OUT.gpkg ...: check --before finds no broken rule. It is not asked after calls with an option
+# that is not listed here.
+demand_rules_kept() {
+    local input=${2:-} output=${3:-} name= written=
+    local -a rules=()
+    [ "${input##*.},${output##*.}" = gpkg,gpkg ] || return 0
+    shift 3
+    while [ $# -gt 0 ]; do
+        case $1 in
+            --*=*) return 0 ;;
+            --input-layer | -l) name=$2 && shift ;;
+            --output-layer | -nln) written=$2 && shift ;;
+            --gap | --max-shift | --max-shift-field | --barrier | --fixed-where | --ignore-where | --contained | --touch-tolerance | \
+                --rows | --symbol | --symbol-field | --scale | --id-field) rules+=("$1" "$2") && shift ;;
+            --allow-jumps) rules+=("$1") ;;
+            --effort | --weight | --weight-field | --block-field | --ease | --row-stiffness | --threads | --max-memory | --seed | \
+                --stats | --report | --proof | --trace | --messages) shift ;;
+            --no-blocks | --overwrite | -q | --quiet | --list-inside | --allow-conflicts | --no-styles) ;;
+            *) return 0 ;;
+        esac
+        shift
+    done
+    [ -z "$written" ] || [ "$written" = "$name" ] || return 0
+    [ -z "$name" ] || rules+=(--input-layer "$name")
+    "$SUNDER" check "$output" --before "$input" "${rules[@]}" --no-blocks --block-field sunder_blk >broken 2>&1
+    awk -F'\t' 'NF > 5 && $7 ~ /^(worse|limit|side|jump|not_a_translate|row|lost)$/ { print; n = 1 }
+        /^since / { asked = 1 } END { exit n || !asked }' broken >rules || fail "check --before of $output: $(head -3 rules broken)"
+    rm broken rules
 }
 
 # After separate IN.gpkg OUT.gpkg ...: no remaining conflict may be worse than before. An independent script compares
