@@ -4,9 +4,10 @@
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 command -v python3 >/dev/null || { echo "skipped: no python3"; exit 77; }
 
-seed=${SUNDER_SEED:-1} layers=2 bounds=6
-[ "${SUNDER_LAWS:-}" = all ] && layers=100 bounds=2500
+# bounds: layers, worlds in each, steps of descent, --effort
+seed=${SUNDER_SEED:-1} layers=2 bounds=(3 34 20 0.1)
+[ "${SUNDER_LAWS:-}" = all ] && layers=100 bounds=(50 200 25 0.1)
 echo "seed $seed"
 python3 "$SUNDER_SOURCE/tests/cli/ease_oracle.py" "$SUNDER" "$seed" "$layers" || trouble=1
-python3 "$SUNDER_SOURCE/tests/cli/ease_bounds.py" "$SUNDER" "$seed" "$bounds" || trouble=1
+python3 "$SUNDER_SOURCE/tests/cli/ease_bounds.py" "$SUNDER" "$seed" "${bounds[@]}" || trouble=1
 finish
