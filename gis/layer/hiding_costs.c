@@ -36,7 +36,9 @@ static bool check_class(const gis_layer_input *input, size_t i, gis_error *error
 {
     if (input->hierarchy_field < 0 || input->feature[i].ignored) return true;
     const double value = class_value(input, i);
-    if (isnan(value) || (value >= 0 && value == floor(value) && value < GIS_LAST_CLASS)) return true;
+    if (gis_field_is_blank(gis_source_feature(input->source, i), input->hierarchy_field) ||
+        (value >= 0 && value == floor(value) && value < GIS_LAST_CLASS))
+        return true;
     return gis_layer_wrong_number(input, i, input->hierarchy_field, "class", "a whole number, 0 or more", error);
 }
 

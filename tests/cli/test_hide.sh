@@ -89,7 +89,7 @@ expect 3 check c.gpkg -l houses "${words[@]}" --before h.gpkg
 # Refused calls, and wrong classes.
 usage() { expect 2 "${@:2}" && grep -q -- "$1" err || fail "$*: $(cat err)"; }
 usage 'not with --max-memory' separate h.gpkg x.gpkg --hide --max-memory 1G
-for value in -1 1.5; do
+for value in -1 1.5 important; do
     printf 'WKT,class\n"POLYGON((0 0,1 0,1 1,0 0))",%s\n' "$value" | layer "wrong$value.gpkg" wrong POLYGON
     expect 1 separate "wrong$value.gpkg" x.gpkg --hide --hierarchy-field class
     grep -q "FID 1: the class in class is $value; it must be a whole number" err || fail "class $value: $(cat err)"
