@@ -208,17 +208,9 @@ def show_hidden(lines):
     return ("hides other features", "is no block")
 
 
-def clause_of_one_block(lines):
-    for line in with_key(lines, "clause"):
-        line["b"] = line["a"]
-        return ("a conflict of",)
-    return False
-
-
 HIDES = {"member left out": leave_member_out, "member never hidden": add_never_hidden, "level": other_level, "member twice": member_twice,
          "clause without proof": clause_without_proof, "raised share": raise_share, "lowered share": lower_share, "share below 0": pull_share,
          "clause twice": clause_twice, "share of another class": other_class, "bound of another class": higher_class,
          "raised bound of hidden": raise_claim, "raised tree of hidden": raise_tree, "dropped leaf of hidden": drop_leaf,
          "leaf more": leaf_more, "split at no level": split_nothing, "called unmet": call_unmet, "share of a met clause": met_clause,
-         "tree of hidden twice": tree_twice, "hidden twice": hide_twice, "hidden important": hide_important, "hidden shown": show_hidden,
-         "clause of one": clause_of_one_block}
+         "tree of hidden twice": tree_twice, "hidden twice": hide_twice, "hidden important": hide_important, "hidden shown": show_hidden}
