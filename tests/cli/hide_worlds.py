@@ -180,7 +180,7 @@ def check_layer(program, seed, counts):
     make_layers((("houses", "POLYGON", "most,class", houses), ("lines", "LINESTRING", "x", lines),
                  ("areas", "POLYGON", "x", areas)))
     words = ["--gap", repr(gap), "--max-shift-field", "most", "--hide-weight", weighting, "--hierarchy-field", "class",
-             "--allow-jumps", "--rows", "no", "--barrier", "in.gpkg,layer=lines,side=no", "--barrier",
+             "--allow-jumps", "--rows", "no", "--ease", "no", "--barrier", "in.gpkg,layer=lines,side=no", "--barrier",
              "in.gpkg,layer=areas,side=no"]
     run, trouble = Run(program, words, proof="proof.jsonl"), []
     trouble += run.refused
