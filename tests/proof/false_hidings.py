@@ -58,6 +58,8 @@ case("clause-without-a-reason", "no proof of a clause", APART, [1], [([1, 2], 1,
 case("clause-of-a-block", "are of one block", {1: box(0, 0, 10, 10, k=1), 2: box(1, 0, 11, 10, k=1)}, [1], [([1, 2], 1, 2, "max_shift")], [(ONE, [SHARE])], ONE,
      OPTIONS + " --block-field k")
 case("clause-of-a-stranger", "is hidden", {**SQUARES, 3: box(40, 0, 50, 10)}, [3], [([3], 1, 2, "max_shift")], [(ONE, [SHARE])], ONE)
+CASES.append(Case("hidden-that-stays", "never hidden", {1: box(0, 0, 10, 10, c=0), 2: box(1, 0, 11, 10, c=1)}, lines_of([1], [], [], []),
+                  lambda problem: Hiding(problem, problem.options).rank(1) == 0, OPTIONS + " --hierarchy-field c"))
 
 # The first one stands 1 too near to a line, and can go 3 to the right, where the second one, which is fixed, stands 5 away. It is asked to
 # keep those 5.
