@@ -669,6 +669,7 @@ typedef enum sunder_conflict_kind {
     SUNDER_CONFLICT_ROW,             /* a and b do not keep their order in their row: b moved, relative to a and along
                                       * the row, by `distance`, and at least `required` was allowed */
     SUNDER_CONFLICT_NEEDLESS,        /* a is hidden, but would be in no conflict where it stood or where its block is */
+    SUNDER_CONFLICT_ALTERED,         /* a is neither a translate of what it was nor of one of its smaller shapes */
     /* The pair is no conflict: it keeps the gap, but not the full gap. It has no reason, and blocks no feature. */
     SUNDER_CONFLICT_TIGHT
 } sunder_conflict_kind;
@@ -792,7 +793,7 @@ SUNDER_API sunder_status sunder_layer_check(const sunder_layer *layer, const sun
 
 /* Lists the rules that the moves from `before` to `after` broke, whatever program made them. The two layers have the
  * same features in the same order. Each broken rule is a conflict of the report, of one of the kinds from
- * SUNDER_CONFLICT_WORSE to SUNDER_CONFLICT_NEEDLESS; summary.verified is true if there is none. Limits, blocks, and
+ * SUNDER_CONFLICT_WORSE to SUNDER_CONFLICT_ALTERED; summary.verified is true if there is none. Limits, blocks, and
  * fixed and ignored features are those of `before`. What is ignored in `after` alone is hidden: it owes nothing, and
  * nothing is owed to it. The options should be those of the run that made the moves. Two things are not checked:
  * whether the features of a block moved together, and the move of a repaired shape that was written in its repaired

@@ -1,4 +1,5 @@
-/* sunder_hiding.h: leaving features of a layer out, as few as possible, if not all of them can be given room.
+/* sunder_hiding.h: features of a layer become smaller or are left out, as few as possible, if not all of them can be
+ * given room.
  *
  * The whole header is experimental: see sunder.h and docs/api.md. */
 #ifndef SUNDER_HIDING_H
@@ -22,16 +23,45 @@ typedef struct sunder_hiding_cost {
 /* Allows sunder_layer_separate() to hide features. cost: [n], copied; NULL: none is hidden, which is the default.
  *
  * Then each conflict that remains is proved, or assumed if no proof is found, to be due to a set of features and
- * barriers that cannot all be kept: a clause. The best choice with a hidden feature in each clause is taken, the others
- * are laid out without the hidden ones, and so on, until no conflict remains for which a feature may be hidden. Hidden
- * features do not move, and have the status SUNDER_FEATURE_HIDDEN. Blocks, limits, rows, and what lies in what are
- * those of all features.
+ * barriers that cannot all be kept as they are: a clause. The best choice with a hidden or smaller feature in each
+ * clause is taken, the layer is laid out with it, and so on, until no conflict remains for which a feature may be hidden
+ * or become smaller. Hidden features do not move, and have the status SUNDER_FEATURE_HIDDEN. Blocks, limits, anchors,
+ * rows, and what lies in what are those of all features with the shapes as given.
  *
  * Fails with SUNDER_ENOMEM, and with SUNDER_EARG for a weight out of its range. */
 SUNDER_EXPERIMENTAL sunder_status sunder_layer_set_hiding(sunder_layer *layer, const sunder_hiding_cost *cost,
                                                           sunder_error *err);
 
-/* What was hidden, and what is proved of it. */
+/* A smaller shape that a feature may have. */
+typedef struct sunder_level {
+    const sunder_shape *shape; /* remains the caller's, and must outlive the layer; it lies in the shape before it */
+    int64_t cost;              /* from 0 to SUNDER_GREATEST_HIDING_WEIGHT, and not less than that of the level before */
+} sunder_level;
+
+/* Allows sunder_layer_separate() to give features smaller shapes. level: those of all features, feature by feature, from
+ * the largest on; end: [n] the index past the last one of each feature. Both are copied. end NULL: no feature has any,
+ * which is the default. Of choices that hide the same weights the one with the least sum of costs is the best.
+ *
+ * Fails with SUNDER_ENOMEM, and with SUNDER_EARG if a shape does not lie in the one before it, or a cost is out of its
+ * range. */
+SUNDER_EXPERIMENTAL sunder_status sunder_layer_set_levels(sunder_layer *layer, const sunder_level *level,
+                                                          const size_t *end, sunder_error *err);
+
+/* How features are cut back at barriers. */
+typedef struct sunder_trimming {
+    double keep;  /* the least share of its area that a feature keeps, from 0 to 1 */
+    double width; /* >= 0; a disc of this diameter lies in what remains */
+} sunder_trimming;
+
+/* Cuts features back to what is as far from all barriers as they have to be, of which the largest polygon remains; with
+ * the gap of the options. shape: [n] becomes, for each feature that is cut and meets the conditions, a new shape that
+ * lies in it and that the caller frees; NULL for all others. Ignored features, those without a polygon and those with
+ * corners that are not doubles are not cut. Fails with SUNDER_ENOMEM or SUNDER_ECANCEL; all shapes are then NULL. */
+SUNDER_EXPERIMENTAL sunder_status sunder_layer_trim(const sunder_layer *layer, const sunder_layer_options *options,
+                                                    const sunder_trimming *trimming, sunder_shape **shape,
+                                                    sunder_error *err);
+
+/* What was hidden or became smaller, and what is proved of it. */
 typedef struct sunder_hiding_summary {
     size_t hidden;          /* the number of hidden features */
     size_t forced;          /* of them, those that have no place whatever else is hidden: clauses of one member */
@@ -40,6 +70,9 @@ typedef struct sunder_hiding_summary {
     size_t components;      /* parts of the clauses that have no member in common */
     size_t components_best; /* of them, those in which what is hidden is proved to be the best */
     size_t rounds;          /* layouts computed */
+    size_t smaller;         /* the number of features with a smaller shape */
+    int64_t smaller_cost;   /* the sum of the costs of their levels; and a lower bound of it for any choice that hides */
+    int64_t smaller_least;  /* the same features */
 } sunder_hiding_summary;
 /* Fills in *summary; zeros if the layer had no hiding costs. */
 SUNDER_EXPERIMENTAL void sunder_report_hiding_sized(const sunder_report *report, sunder_hiding_summary *summary,
@@ -60,11 +93,16 @@ typedef struct sunder_hiding_class {
  * number. The report owns them, as all that the functions below return. */
 SUNDER_EXPERIMENTAL const sunder_hiding_class *sunder_report_hiding_classes(const sunder_report *report, size_t *n);
 
-/* A set of features that cannot all be kept, and the conflict that it was made of. */
+/* Returns the level of a feature: 0 with its shape as given, k with its smaller shape number k; one more than there are
+ * smaller shapes if it is hidden. */
+SUNDER_EXPERIMENTAL size_t sunder_report_level(const sunder_report *report, size_t feature);
+
+/* A set of features of which one needs a greater level, and the conflict that it was made of. */
 typedef struct sunder_clause {
-    const size_t *member; /* [members] the features that may be hidden, ascending */
+    const size_t *member; /* [members] the features that may be hidden or become smaller, ascending */
     const size_t *thing;  /* [things] all features and barriers of the conflict or its proof, ascending; barrier k is
                            * the number of features + k */
+    const uint32_t *level; /* [members] the levels that they cannot all keep */
     size_t members, things;
     bool proved;
     size_t a, b; /* the conflict, as in sunder_conflict */

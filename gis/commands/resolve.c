@@ -154,8 +154,11 @@ static bool resolve_ease(const gis_options *options, double *ease, gis_error *er
     return true;
 }
 
-/* What does not work together with hiding is refused. */
-static bool resolve_hiding(const gis_options *options, gis_layer_rules *out, gis_error *error)
+/* The share that a trimmed feature keeps unless --trim-keep gives one. */
+static const double usual_share_kept = 0.5;
+
+/* What features may become if they have no room. What does not work together with that is refused. */
+static bool resolve_room(const gis_options *options, gis_layer_rules *out, gis_error *error)
 {
     static const gis_option_id not_with[] = {OPT_MAX_MEMORY};
     unsigned weighting = GIS_WEIGHTING_SQRT_AREA;
@@ -163,9 +166,18 @@ static bool resolve_hiding(const gis_options *options, gis_layer_rules *out, gis
     out->drop_hidden = options->given[OPT_DROP_HIDDEN];
     out->hierarchy_field = options->text[OPT_HIERARCHY_FIELD];
     out->hidden_field = options->text[OPT_HIDDEN_FIELD];
-    for (size_t i = 0; out->hide && i < sizeof not_with / sizeof *not_with; i++)
+    out->trim = options->given[OPT_TRIM] && options->command->bit != GIS_CHECK; /* see gis_resolve_original() */
+    out->trim_keep = options->given[OPT_TRIM_KEEP] ? options->number[OPT_TRIM_KEEP] : usual_share_kept;
+    out->min_size = gis_resolve_length(options, OPT_MIN_SIZE);
+    out->rigid_where = options->text[OPT_RIGID_WHERE];
+    for (size_t i = 0; (out->hide || out->trim) && i < sizeof not_with / sizeof *not_with; i++)
         if (options->given[not_with[i]])
-            return gis_fail_usage(error, "--hide: not with %s", gis_option_table[not_with[i]].names);
+            return gis_fail_usage(error, "%s: not with %s", out->hide ? "--hide" : "--trim",
+                                  gis_option_table[not_with[i]].names);
+    if (options->given[OPT_TRIM] && !options->given[OPT_BARRIER])
+        return gis_fail_usage(error, "--trim: features are cut back at barriers; give --barrier");
+    if (out->trim_keep > 1)
+        return gis_fail_usage(error, "--trim-keep %g: a share is at most 1", out->trim_keep);
     if (options->given[OPT_HIDE_WEIGHT] &&
         !resolve_choice(options, OPT_HIDE_WEIGHT, weighting_word, &weighting, error))
         return false;
@@ -197,7 +209,7 @@ static bool resolve_rules(const gis_options *options, gis_layer_rules *out, gis_
     out->core.threads = thread_count(options);
     if (!resolve_choice(options, OPT_WEIGHT, weighting_word, &weighting, error)) return false;
     out->weighting = (gis_weighting)weighting;
-    return resolve_rows(options, out, error) && resolve_hiding(options, out, error) &&
+    return resolve_rows(options, out, error) && resolve_room(options, out, error) &&
            resolve_stiffness(options, out->core.row_stiffness, error) &&
            resolve_ease(options, &out->core.ease, error) && resolve_contained(options, &out->core.contained, error);
 }
@@ -265,6 +277,7 @@ void gis_resolve_original(const gis_options *options, const gis_layer_input_requ
     out->rules.block_field = NULL;
     out->rules.rows_field = rows_field_of(options);
     out->rules.hidden_field = out->rules.hierarchy_field = NULL;
+    out->rules.trim = options->given[OPT_TRIM];
 }
 
 /* Checks the options of the command check that depend on --before: some apply to moves only, and some select features
@@ -272,7 +285,7 @@ void gis_resolve_original(const gis_options *options, const gis_layer_input_requ
 static bool check_before(const gis_options *options, gis_error *error)
 {
     static const gis_option_id of_moves[] = {OPT_MAX_SHIFT, OPT_MAX_SHIFT_FIELD, OPT_FIXED_WHERE, OPT_ALLOW_JUMPS,
-                                             OPT_ROWS},
+                                             OPT_ROWS,      OPT_TRIM},
                                of_results[] = {OPT_SQL, OPT_BBOX};
     bool before = options->given[OPT_BEFORE];
     if (options->command->bit != GIS_CHECK) return true;

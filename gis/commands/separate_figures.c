@@ -136,6 +136,18 @@ static void json_hidden(gis_json *out, const gis_separate_run *run)
     gis_json_close(out, '}');
 }
 
+static void json_shrunk(gis_json *out, const gis_separate_run *run)
+{
+    sunder_hiding_summary hiding;
+    sunder_report_hiding(run->report, &hiding);
+    gis_json_key(out, "shrunk");
+    gis_json_open(out, '{');
+    gis_json_put_size(out, "trimmed", hiding.smaller);
+    gis_json_put_double(out, "area_lost", (double)hiding.smaller_cost / GIS_SHRINKING_UNIT);
+    gis_json_put_double(out, "lower_bound", (double)hiding.smaller_least / GIS_SHRINKING_UNIT);
+    gis_json_close(out, '}');
+}
+
 void gis_separate_stats(gis_json *out, const gis_separate_run *run)
 {
     const sunder_layer_summary *summary = &run->summary;
@@ -174,8 +186,9 @@ void gis_separate_stats(gis_json *out, const gis_separate_run *run)
         json_shortfall(out, summary);
         gis_json_line(out);
     }
-    if (run->request.rules.hide) {
+    if (run->request.rules.hide || run->request.rules.trim) {
         json_hidden(out, run);
+        json_shrunk(out, run);
         gis_json_line(out);
     }
     gis_json_put_bool(out, "verified", run->verified);
@@ -255,11 +268,14 @@ static void print_rows(const gis_separate_run *run)
 static void print_hidden(const gis_separate_run *run)
 {
     sunder_hiding_summary hiding;
-    if (!run->request.rules.hide) return;
+    if (!run->request.rules.hide && !run->request.rules.trim) return;
     sunder_report_hiding(run->report, &hiding);
     printf("hidden %zu, weight %.6g, at least %.6g is needed; %zu of %zu groups proved\n", hiding.hidden,
            (double)hiding.weight / GIS_HIDING_UNIT, (double)hiding.least / GIS_HIDING_UNIT, hiding.components_best,
            hiding.components);
+    if (run->request.rules.trim)
+        printf("trimmed %zu, weight times share of lost area %.6g, at least %.6g is needed\n", hiding.smaller,
+               (double)hiding.smaller_cost / GIS_SHRINKING_UNIT, (double)hiding.smaller_least / GIS_SHRINKING_UNIT);
 }
 
 static void print_shortfall(const gis_separate_run *run)

@@ -119,7 +119,7 @@ static bool make_layer(gis_layer_input *input, gis_error *error)
         return gis_core_failed(error, "--barrier", &why);
     if (sunder_layer_set_rows(input->layer, input->row, &why) != SUNDER_OK)
         return gis_core_failed(error, "--rows", &why);
-    return gis_layer_set_hiding(input, error) && set_sides(input, error);
+    return gis_layer_set_hiding(input, error) && gis_layer_set_smaller(input, error) && set_sides(input, error);
 }
 
 /* Barriers are read within this multiple of the longest limit, since the report also says which longer limit would
@@ -242,7 +242,10 @@ bool gis_layer_make_room(gis_layer_input *input, bool demands, gis_error *error)
 void gis_layer_drop_features(gis_layer_input *input)
 {
     for (size_t i = 0; input->shape && i < input->n; i++) sunder_shape_free(input->shape[i]);
+    for (size_t i = 0; input->smaller && i < input->n; i++) sunder_shape_free(input->smaller[i]);
     free(input->shape);
+    free(input->smaller);
+    input->smaller = NULL;
     free(input->feature);
     free(input->row);
     input->row = NULL;

@@ -42,7 +42,8 @@ bool gis_layer_lengths(gis_layer_input *input, gis_error *error)
         !gis_optional_length_in_layer_units(&rules->max_shift, &input->units, "--max-shift", &input->max_shift,
                                             error) ||
         !gis_optional_length_in_layer_units(&rules->touch_tolerance, &input->units, "--touch-tolerance",
-                                            &input->tolerance, error))
+                                            &input->tolerance, error) ||
+        !gis_optional_length_in_layer_units(&rules->min_size, &input->units, "--min-size", &input->min_size, error))
         return false;
     if (rules->least_gap.text && input->least_gap > input->gap)
         return gis_fail_usage(error, "--least-gap %s: must not be greater than the gap, %s", rules->least_gap.text,

@@ -12,6 +12,8 @@ const char *gis_weighting_string(gis_weighting weighting);
 
 /* Weights of hidden features are whole numbers in the core: thousandths. */
 #define GIS_HIDING_UNIT 1000.
+/* Weights times shares of lost area likewise: millionths. */
+#define GIS_SHRINKING_UNIT 1e6
 /* The class of features without a value is less important than any that a field can give. */
 #define GIS_LAST_CLASS UINT32_MAX
 
@@ -23,6 +25,10 @@ typedef struct gis_layer_rules {
     const char *block_field, *weight_field, *max_shift_field, *rows_field;
     gis_weighting weighting;
     bool hide, drop_hidden; /* features may be left out; by the classes in this field, and this weight */
+    bool trim; /* features may be cut back at barriers, but keep this share of their area, and a disc of this size */
+    double trim_keep;
+    gis_optional_length min_size;
+    const char *rigid_where; /* SQL: the shapes of these features never change */
     const char *hierarchy_field;
     const char *hidden_field; /* of a result: which features are hidden */
     gis_weighting hide_weighting;

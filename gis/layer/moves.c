@@ -211,7 +211,8 @@ static bool make_layers(pairing *p, gis_error *error)
         sunder_layer_set_barriers(m->before, barriers->barrier, barriers->n, &why) != SUNDER_OK ||
         sunder_layer_set_barriers(m->after, barriers->barrier, barriers->n, &why) != SUNDER_OK)
         return gis_core_failed(error, "--before", &why);
-    return set_rows(m, error) && set_sides(m, error);
+    return set_rows(m, error) && gis_layer_set_levels(&m->original, m->matched, m->n, m->before, error) &&
+           set_sides(m, error);
 }
 
 /* ---- All of it --------------------------------------------------------------------------------------------------- */
@@ -302,7 +303,7 @@ bool gis_moves_row(const gis_moves *moves, size_t k, gis_conflict_texts *scratch
     if (!gis_conflict_values(&moves->original, &row, scratch, values, error)) return false;
     memcpy(from, row.from, sizeof row.from);
     memcpy(to, row.to, sizeof row.to);
-    if (!lost && row.kind != SUNDER_CONFLICT_NOT_A_TRANSLATE) return true;
+    if (!lost && row.kind != SUNDER_CONFLICT_NOT_A_TRANSLATE && row.kind != SUNDER_CONFLICT_ALTERED) return true;
     /* The row has no line and no distances. */
     anchor_of(moves, row.a, from);
     memcpy(to, from, sizeof row.to);

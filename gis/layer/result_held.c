@@ -20,6 +20,11 @@ static bool visit_features(const gis_result *r, bool has_null, gis_feature_visit
     for (size_t i = 0; visit && i < r->input->n; i++) {
         gis_feature_row row = {.status = sunder_report_status(r->of, i), .block = block_value(r, has_null, i)};
         sunder_report_move(r->of, i, &row.dx, &row.dy);
+        if (sunder_report_level(r->of, i) && row.status != SUNDER_FEATURE_HIDDEN) {
+            row.smaller = r->input->smaller[i];
+            row.multi = wkbFlatten(OGR_G_GetGeometryType(gis_source_geometry(r->input->source, i))) == wkbMultiPolygon;
+            row.lost = gis_layer_share_lost(r->input, i);
+        }
         if (!visit(user, i, &row, error)) return false;
     }
     return true;

@@ -45,7 +45,7 @@ static bool write_main(const gis_result *r, bool wanted, gis_sink *sink, gis_err
     const gis_layer_rules *rules = &r->input->request->rules;
     feature_writer w = {NULL, rules->drop_hidden};
     if (!wanted) return r->kind->features(r, true, NULL, NULL, error);
-    return gis_main_begin(sink, rules->hide, &w.layer, error) &&
+    return gis_main_begin(sink, rules->hide, rules->trim, &w.layer, error) &&
            r->kind->features(r, gis_sink_has_null(w.layer), write_feature, &w, error);
 }
 

@@ -17,25 +17,38 @@ gis_value gis_block_as_value(bool fids_unique, int64_t first, GIntBig fid)
     return fids_unique ? gis_fid_as_value(fid) : (gis_value){GIS_INTEGER, {.integer = first}};
 }
 
-bool gis_main_begin(gis_sink *sink, bool hide, gis_sink_layer **layer, gis_error *error)
+bool gis_main_begin(gis_sink *sink, bool hide, bool smaller, gis_sink_layer **layer, gis_error *error)
 {
     static const gis_field fields[] = {{"sunder_dx", OFTReal, 0},
                                        {"sunder_dy", OFTReal, 0},
                                        {"sunder_len", OFTReal, 0},
                                        {"sunder_st", OFTString, 7},
                                        {"sunder_blk", OFTInteger64, 0},
-                                       {"sunder_inv", OFTInteger, 0}};
+                                       {"sunder_inv", OFTInteger, 0},
+                                       {"sunder_lvl", OFTInteger, 0},
+                                       {"sunder_cut", OFTReal, 0}};
+    const size_t columns = sizeof fields / sizeof *fields;
     const gis_sink_layer_request request = {.suffix = "",
                                             .like_source = true,
                                             .as_source = true,
                                             .fields = fields,
-                                            .n_fields = sizeof fields / sizeof *fields - !hide,
+                                            .n_fields = smaller ? columns : columns - (hide ? 2 : 3),
                                             .style = hide ? GIS_STYLE_WITH_HIDDEN : GIS_STYLE_STATUS};
     if (!gis_sink_add(sink, &request, layer, error)) return false;
     if (!gis_sink_has_null(*layer))
         gis_sink_tell_loss(*layer,
                            "the format has no null: a feature in no block has its own FID in sunder_blk and block");
     return true;
+}
+
+static OGRGeometryH geometry_of(const sunder_shape *shape, double dx, double dy, bool multi, gis_error *error)
+{
+    gis_polygons all = {0};
+    bool ok = gis_polygons_append_shape(&all, shape, dx, dy, error);
+    OGRGeometryH geometry = ok ? gis_geometry_polygons(&all, multi) : NULL;
+    if (ok && !geometry) gis_no_memory(error);
+    gis_polygons_clear(&all);
+    return geometry;
 }
 
 bool gis_main_row(gis_sink_layer *layer, size_t i, const gis_feature_row *row, gis_error *error)
@@ -47,8 +60,13 @@ bool gis_main_row(gis_sink_layer *layer, size_t i, const gis_feature_row *row, g
         {GIS_TEXT, {.text = sunder_feature_status_string(row->status)}},
         row->block,
         {GIS_INTEGER, {.integer = row->status == SUNDER_FEATURE_HIDDEN}},
+        {GIS_INTEGER, {.integer = row->smaller != NULL}},
+        {GIS_REAL, {.real = row->lost}},
     };
-    return gis_go_on(error) && gis_sink_write_source(layer, i, row->dx, row->dy, values, error);
+    if (!gis_go_on(error)) return false;
+    if (!row->smaller) return gis_sink_write_source(layer, i, row->dx, row->dy, values, error);
+    OGRGeometryH geometry = geometry_of(row->smaller, row->dx, row->dy, row->multi, error);
+    return geometry && gis_sink_write_shaped(layer, i, geometry, values, error);
 }
 
 bool gis_displacement_begin(gis_sink *sink, OGRFieldType id, OGRSpatialReferenceH crs, gis_sink_layer **layer,
@@ -93,22 +111,12 @@ bool gis_symbols_begin(gis_sink *sink, bool multi, OGRSpatialReferenceH crs, gis
     return gis_sink_add(sink, &request, layer, error);
 }
 
-static OGRGeometryH symbol_geometry(const sunder_shape *shape, double dx, double dy, bool multi, gis_error *error)
-{
-    gis_polygons all = {0};
-    bool ok = gis_polygons_append_shape(&all, shape, dx, dy, error);
-    OGRGeometryH geometry = ok ? gis_geometry_polygons(&all, multi) : NULL;
-    if (ok && !geometry) gis_no_memory(error);
-    gis_polygons_clear(&all);
-    return geometry;
-}
-
 bool gis_symbols_row(gis_sink_layer *layer, OGRFeatureH feature, const sunder_shape *shape, double dx, double dy,
                      bool multi, gis_error *error)
 {
     OGRGeometryH symbol = NULL;
     if (shape && !sunder_shape_is_empty(shape)) {
-        symbol = symbol_geometry(shape, dx, dy, multi, error);
+        symbol = geometry_of(shape, dx, dy, multi, error);
         if (!symbol) return false;
     }
     return gis_sink_write(layer, feature, symbol, NULL, error);

@@ -19,10 +19,13 @@ typedef struct gis_feature_row {
     double dx, dy;
     sunder_feature_status status;
     gis_value block;
+    const sunder_shape *smaller; /* the shape that the feature has instead of its own; NULL: it has its own */
+    bool multi;                  /* ... which is written as a multipolygon */
+    double lost;                 /* the share of its area that the feature lost */
 } gis_feature_row;
 
-/* hide: the layer has the column sunder_inv. */
-bool gis_main_begin(gis_sink *sink, bool hide, gis_sink_layer **layer, gis_error *error);
+/* hide: the layer has the column sunder_inv; smaller: it has sunder_lvl and sunder_cut. */
+bool gis_main_begin(gis_sink *sink, bool hide, bool smaller, gis_sink_layer **layer, gis_error *error);
 /* Writes the row of feature i of the sink's source, or of its current batch. */
 bool gis_main_row(gis_sink_layer *layer, size_t i, const gis_feature_row *row, gis_error *error);
 

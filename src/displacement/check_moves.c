@@ -6,6 +6,10 @@
  * rows. No pair that is in conflict afterwards may be worse than before. Blocks, limits, rows and fixed features are
  * those of the layer before.
  *
+ * A feature of the layer before may have smaller shapes (sunder_layer_set_levels()). It may then be a translate of one
+ * of these instead, with which it stands for everything else; only blocks, limits, anchors and rows are those of its
+ * shape as given.
+ *
  * A feature that is ignored in the layer after alone is hidden: it owes nothing, and nothing is owed to it. It is
  * needless if it would be in no conflict where it stood, moved with its block. */
 #include "displacement/layer/barrier_pairs.h"
@@ -31,6 +35,9 @@ typedef struct comparison {
     double *move;             /* [2 * features] the move of each feature between the two layers */
     bool *hidden, any_hidden; /* [features] the features that are left out afterwards; whether there are any */
     bool *translated;         /* [features] whether the feature is a translate */
+    sunder_layer lowered;     /* the layer before, with the shapes that features have in the one after ... */
+    const sunder_shape **was; /* [features] ... which are these */
+    bool any_lowered;         /* a feature has a smaller shape */
     sunder_conflict *found;
     size_t n, capacity;
 } comparison;
@@ -42,7 +49,7 @@ static void clear_comparison(comparison *c)
     sunder_i_model_free(&c->model);
     sunder_i_barriers_free(&c->barriers);
     sunder_i_ordered_clear(&c->layer);
-    sunder_i_free_all(c->start.pair, c->now.pair, c->move, c->translated, c->hidden, c->found);
+    sunder_i_free_all(c->start.pair, c->now.pair, c->move, c->translated, c->hidden, c->found, (void *)c->was);
 }
 
 static sunder_conflict *add_conflict(comparison *c, sunder_conflict_kind kind, size_t a, size_t b)
@@ -70,14 +77,18 @@ static void draw_link(const comparison *c, size_t a, const double s[2], sunder_c
 
 static sunder_status check_feature(comparison *c, uint32_t f, sunder_error *err)
 {
-    const sunder_shape *was = c->before->shape[f], *is = c->after->shape[f];
+    const sunder_shape *given = c->before->shape[f], *was = c->was[f], *is = c->after->shape[f];
     const double none[2] = {0, 0}, *t = c->move + 2 * (size_t)f;
     const bool there = was && !sunder_shape_is_empty(was), still = is && !sunder_shape_is_empty(is);
-    c->translated[f] = there == still && (!there || sunder_i_move_between(was, is, c->move + 2 * f));
+    c->translated[f] = there == still && (!there || (was == given ? sunder_i_move_between(was, is, c->move + 2 * f)
+                                                                  : sunder_i_move_between_sets(was, is, c->move + 2 * f)));
     /* If the geometry was repaired on input, the shape as given is not the one written; the move is then not known. */
     if (!c->translated[f] && there && still && sunder_shape_repaired(was)) return SUNDER_OK;
     if (!c->translated[f])
-        return add_conflict(c, SUNDER_CONFLICT_NOT_A_TRANSLATE, f, SIZE_MAX) ? SUNDER_OK : sunder_i_failure_cause(err);
+        return add_conflict(c, c->before->level_end ? SUNDER_CONFLICT_ALTERED : SUNDER_CONFLICT_NOT_A_TRANSLATE, f,
+                            SIZE_MAX)
+                   ? SUNDER_OK
+                   : sunder_i_failure_cause(err);
     const sunder_i_body *body = &c->model.body[c->model.body_of[f]];
     const double limit = sunder_i_limit_of(body);
     if (sunder_i_is_within_limit(t, limit)) return SUNDER_OK;
@@ -148,14 +159,39 @@ static sunder_status mark_hidden(comparison *c, sunder_error *err)
     return c->hidden ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
-/* Finds the rows of the layer before, and their rule. Then leaves out what is hidden. */
-static sunder_status find_rows(comparison *c, sunder_error *err)
+/* Finds out which features have a smaller shape now: those that are a translate of one, and not of the given one. */
+static sunder_status find_levels(comparison *c, sunder_error *err)
+{
+    c->was = sunder_i_alloc(c->before->n, sizeof *c->was);
+    if (!c->was) return sunder_i_failure_cause(err);
+    for (size_t f = 0; f < c->before->n; f++) {
+        const sunder_shape *given = c->before->shape[f], *is = c->after->shape[f];
+        size_t n;
+        const sunder_level *smaller = sunder_i_levels_of(c->before, f, &n);
+        double t[2];
+        c->was[f] = given;
+        for (size_t k = 0; k < n && is && c->was[f] == given && !sunder_i_move_between(given, is, t); k++)
+            if (sunder_i_move_between_sets(smaller[k].shape, is, t)) c->was[f] = smaller[k].shape;
+        c->any_lowered = c->any_lowered || c->was[f] != given;
+    }
+    c->lowered = *c->before;
+    c->lowered.at_level = c->was;
+    return SUNDER_OK;
+}
+
+/* Prepares the model for the features that are visible, with the shapes that they have now; but the rows are those of
+ * the layer before, and so are the anchors. */
+static sunder_status prepare_model(comparison *c, sunder_error *err)
 {
     sunder_i_rows rows = {0};
     const bool wanted = c->model.rules.rows != SUNDER_ROWS_NONE;
     sunder_status status = wanted ? sunder_i_rows_find(&c->model, &rows, err) : SUNDER_OK;
-    if (!status && c->any_hidden) status = sunder_i_placement_hide(&c->model, &c->placement, &c->start, c->hidden, err);
+    c->layer.lowered = c->any_lowered;
+    if (!status && (c->any_hidden || c->any_lowered))
+        status = sunder_i_placement_lower(&c->model, &c->placement, &c->start, c->hidden, err);
     if (!status) status = sunder_i_rows_forget_hidden(&rows, &c->model, err);
+    if (!status) status = sunder_i_model_cut(&c->model, err);
+    if (!status) status = sunder_i_model_anchor(&c->model, err);
     if (!status && wanted) status = sunder_i_rows_make_rule(&rows, &c->placement, &c->start, &c->model, err);
     sunder_i_rows_free(&rows);
     return status;
@@ -232,7 +268,7 @@ static sunder_status is_worse(const comparison *c, const sunder_i_relation *r, b
         return sunder_i_barrier_worsened(&c->model, &home, &now, r->b, worse, err);
     }
     if (!sunder_i_is_conflict_of_bodies(&c->model, r) || (was && was->contained && r->contained)) return SUNDER_OK;
-    const sunder_i_pair before = {c->before->shape[r->a], c->before->shape[r->b], NULL, NULL},
+    const sunder_i_pair before = {c->was[r->a], c->was[r->b], NULL, NULL},
                         after = {c->after->shape[r->a], c->after->shape[r->b], NULL, NULL};
     return sunder_i_pair_worsened(&before, &after, worse, err);
 }
@@ -305,8 +341,7 @@ static sunder_status check_pairs(comparison *c, sunder_report *report, sunder_er
             found->before = stance.distance;
             continue;
         }
-        status = sunder_pair_distance(c->before->shape[described->a], c->before->shape[described->b], &found->before,
-                                      on_a, on_b, err);
+        status = sunder_pair_distance(c->was[described->a], c->was[described->b], &found->before, on_a, on_b, err);
     }
     return status;
 }
@@ -320,15 +355,14 @@ static sunder_status begin_comparison(comparison *c, const sunder_layer_options 
         return sunder_i_fail(err, SUNDER_EARG, "the layers have %zu and %zu features", c->before->n, c->after->n);
     sunder_status status = sunder_i_rules_of(options, &rules, err);
     if (!status) status = sunder_i_barriers_make(c->before, rules.gap, rules.full_gap, &c->barriers, err);
-    if (!status) status = sunder_i_order_layer(c->before, &c->barriers, true, &c->layer, err);
+    if (!status) status = find_levels(c, err);
+    if (!status) status = sunder_i_order_layer(&c->lowered, &c->barriers, true, &c->layer, err);
     if (!status) status = sunder_i_model_init(&c->layer, &c->barriers, &rules, &c->model, err);
     if (!status) status = sunder_i_placement_init(&c->model, &c->placement, err);
     if (!status) status = sunder_i_placement_relate(&c->model, &c->placement, NULL, &c->start, err);
     if (!status) status = sunder_i_model_join(&c->model, &c->start, err);
-    if (!status) status = sunder_i_model_cut(&c->model, err);
-    if (!status) status = sunder_i_model_anchor(&c->model, err);
     if (!status) status = mark_hidden(c, err);
-    if (!status) status = find_rows(c, err);
+    if (!status) status = prepare_model(c, err);
     if (status) return status;
     c->move = sunder_i_calloc(2 * c->before->n, sizeof *c->move);
     c->translated = sunder_i_calloc(c->before->n, sizeof *c->translated);

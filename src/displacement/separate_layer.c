@@ -83,13 +83,15 @@ static sunder_status prepare_search(sunder_i_solver *s, sunder_error *err)
     return begin_as_at_start(s) ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
-/* Leaves out the features that are hidden, by the caller's numbers, with their edges of rows. */
-static sunder_status leave_out(sunder_i_solver *s, const bool *hidden, sunder_error *err)
+/* Leaves out the features that are hidden, by the caller's numbers, with their edges of rows, and gives the others the
+ * shapes that they have now. */
+static sunder_status lower(sunder_i_solver *s, const bool *hidden, sunder_error *err)
 {
-    bool *own = sunder_i_alloc(s->model.features, sizeof *own);
-    if (!own) return sunder_i_failure_cause(err);
-    for (size_t f = 0; f < s->model.features; f++) own[f] = hidden[s->layer.number[f]];
-    const sunder_status status = sunder_i_placement_hide(&s->model, &s->placement, &s->start, own, err);
+    bool *own = hidden ? sunder_i_alloc(s->model.features, sizeof *own) : NULL;
+    if (hidden && !own) return sunder_i_failure_cause(err);
+    for (size_t f = 0; f < s->model.features && own; f++) own[f] = hidden[s->layer.number[f]];
+    s->layer.lowered = s->layer.given->at_level != NULL;
+    const sunder_status status = sunder_i_placement_lower(&s->model, &s->placement, &s->start, own, err);
     sunder_i_free(own);
     return status ? status : sunder_i_rows_forget_hidden(&s->rows, &s->model, err);
 }
@@ -102,7 +104,7 @@ static sunder_status find_moves(sunder_i_solver *s, const sunder_layer *layer, c
     sunder_status status = read_layer(s, layer, options, TO_SEPARATE, report, err);
     const bool rows = !status && s->model.rules.rows;
     if (rows) status = sunder_i_rows_find(&s->model, &s->rows, err);
-    if (!status && hidden) status = leave_out(s, hidden, err);
+    if (!status && hidden) status = lower(s, hidden, err);
     if (!status) status = sunder_i_solver_begin_holding(s, err);
     if (!status) status = sunder_i_solver_find_infeasible(s, NULL, err);
     if (!status) status = prepare_search(s, err);
@@ -147,6 +149,7 @@ static sunder_status answer_question(const sunder_layer *layer, const sunder_lay
     sunder_report *report = NULL;
     sunder_status status = read_layer(s, layer, options, TO_ANSWER, &report, err);
     sunder_report_free(report);
+    if (!status && layer->at_level) status = lower(s, NULL, err);
     if (!status && *proof == SUNDER_I_PROOF_LATER) return prepare_for_proofs(s, spared, err);
     if (!status) status = sunder_i_solver_find_infeasible(s, spared, err);
     if (status) return status;
@@ -176,7 +179,7 @@ static sunder_status relate_last(sunder_i_solver *s, sunder_error *err)
     sunder_status status = sunder_i_changes_init(&elsewhere, s->model.things) ? SUNDER_OK : sunder_i_failure_cause(err);
     for (uint32_t f = 0; f < s->model.features && !status; f++) {
         const double *t = s->placement.move + 2 * (size_t)f;
-        if (t[0] != 0 || t[1] != 0 || s->placement.was_rounded[f]) sunder_i_changes_add(&elsewhere, f);
+        if (t[0] != 0 || t[1] != 0 || s->placement.reshaped[f]) sunder_i_changes_add(&elsewhere, f);
     }
     if (!status && elsewhere.failed) status = sunder_i_failure_cause(err);
     if (!status && !begin_as_at_start(s)) status = sunder_i_failure_cause(err);
@@ -284,27 +287,41 @@ static sunder_status find_reasons(sunder_i_solver *s, sunder_report *report, sun
     return status ? status : sunder_i_report_proofs(report, s, sunder_i_decide, err);
 }
 
-/* Lays out the features that are not hidden, and hides more, until nothing remains for which one may be hidden. */
-static sunder_status lay_out_visible(sunder_i_solver *s, const sunder_layer *layer, const sunder_layer_options *options,
-                                     sunder_i_hiding *hiding, sunder_report **report, sunder_error *err)
+/* Lays a layer out anew in place of the layout at hand. */
+static sunder_status lay_out_again(sunder_i_solver *s, const sunder_layer *layer, const sunder_layer_options *options,
+                                   const bool *hidden, sunder_report **report, sunder_error *err)
 {
-    bool again = true;
+    sunder_i_solver_free(s);
+    sunder_report_free(*report);
+    memset(s, 0, sizeof *s);
+    *report = NULL;
+    return find_moves(s, layer, options, hidden, report, err);
+}
+
+/* Lays out the features that are not hidden, and hides more or makes them smaller, until nothing remains for which that
+ * is possible. *lowered becomes the layer with the shapes of the last layout, which the solver refers to. */
+static sunder_status lay_out_visible(sunder_i_solver *s, const sunder_layer *layer, const sunder_layer_options *options,
+                                     sunder_i_hiding *hiding, sunder_layer *lowered, sunder_report **report,
+                                     sunder_error *err)
+{
+    sunder_layer_options thorough = *options, quick;
+    thorough.drop_proofs = false; /* clauses need all of them */
+    quick = thorough;
+    quick.effort = 0;
+    if (quick.full_gap <= quick.gap) quick.ease = 0; /* easing changes no verdict */
     sunder_status status = sunder_i_hiding_begin(layer, hiding, err);
     hiding->keep_proofs = options->keep_trees;
-    while (again && !status) {
-        sunder_i_solver_free(s);
-        sunder_report_free(*report);
-        memset(s, 0, sizeof *s);
-        *report = NULL;
-        sunder_layer_options with = *options;
-        with.drop_proofs = false; /* clauses need all of them */
-        if (!hiding->thorough) { /* never the last layout: easing changes no verdict */
-            with.effort = 0;
-            if (with.full_gap <= with.gap) with.ease = 0;
-        }
-        status = find_moves(s, layer, &with, hiding->hidden, report, err);
+    *lowered = *layer;
+    lowered->at_level = hiding->shape;
+    while (!status && hiding->step != SUNDER_I_HIDING_END) {
+        const sunder_layer_options *with = hiding->step == SUNDER_I_HIDING_THOROUGH ? &thorough : &quick;
+        if (hiding->step != SUNDER_I_HIDING_PROVE)
+            status = lay_out_again(s, lowered, with, hiding->hidden, report, err);
+        else
+            sunder_i_report_forget_conflicts(*report);
+        s->model.rules.effort = hiding->step == SUNDER_I_HIDING_QUICK ? 0 : options->effort;
         if (!status) status = find_reasons(s, *report, err);
-        if (!status) status = sunder_i_hiding_learn(hiding, &s->model, s->layer.number, *report, &again, err);
+        if (!status) status = sunder_i_hiding_learn(hiding, &s->model, s->layer.number, *report, err);
     }
     if (status) return status;
     sunder_i_report_forget_conflicts(*report);
@@ -316,14 +333,16 @@ static sunder_status separate_layer(sunder_i_solver *s, const sunder_layer *laye
                                     sunder_report **report, sunder_error *err)
 {
     const double began = sunder_i_now();
+    const bool may_lower = layer->hiding || layer->level_end;
     sunder_i_hiding hiding = {0};
-    sunder_status status = layer->hiding ? lay_out_visible(s, layer, options, &hiding, report, err)
-                                         : find_moves(s, layer, options, NULL, report, err);
+    sunder_layer lowered;
+    sunder_status status = may_lower ? lay_out_visible(s, layer, options, &hiding, &lowered, report, err)
+                                     : find_moves(s, layer, options, NULL, report, err);
     if (!status) status = conclude_report(s, options, *report, began, err);
-    if (!status && layer->hiding) status = sunder_i_hiding_report(&hiding, *report, err);
-    sunder_i_hiding_free(&hiding);
+    if (!status && may_lower) status = sunder_i_hiding_report(&hiding, *report, err);
     const sunder_i_rules rules = s->model.rules;
     if (!status) status = renumber_report(s, *report, err);
+    sunder_i_hiding_free(&hiding);
     if (!status) sunder_i_progress(&rules, 1);
     return status;
 }

@@ -2,8 +2,8 @@
  *
  * The candidate pairs of the tree of boxes give all points where two edges meet. The points (vertices and crossings)
  * are sorted exactly and numbered lexicographically, equal ones alike; after that, the order along an edge is the order
- * of the numbers. Coincident arcs cancel in pairs, since by the even-odd rule only the parity of the arcs crossed
- * matters. */
+ * of the numbers. One of several coincident arcs remains: by the even-odd rule if their number is odd, since only the
+ * parity of the arcs crossed matters; for winding numbers if their turns have a sum other than 0, which it gets. */
 #include "shape/even_odd.h"
 
 #include "base/sort.h"
@@ -19,7 +19,8 @@ typedef struct finder {
     meet *meets;
     size_t meet_n, meet_capacity;
     sunder_i_hpoint *made; /* [made_n] the crossings; copied to the arena at the end */
-    size_t made_n, made_capacity;
+    uint32_t *made_on;     /* [made_n] an edge through each */
+    size_t made_n, made_capacity, made_on_capacity;
     sunder_i_hpoint *place; /* the exact positions of all nodes, when they are known */
     bool failed;
 } finder;
@@ -47,11 +48,13 @@ static bool add_crossing(finder *f, uint32_t e, uint32_t g)
     sunder_i_lattice *l = r->lattice;
     const sunder_i_point a = r->at[e], b = r->at[r->next[e]];
     const sunder_i_fraction t = sunder_i_crossing(l, a, b, r->at[g], r->at[r->next[g]]);
-    if (!sunder_i_reserve(&f->made, &f->made_capacity, f->made_n + 1, sizeof *f->made)) {
+    if (!sunder_i_reserve(&f->made, &f->made_capacity, f->made_n + 1, sizeof *f->made) ||
+        !sunder_i_reserve(&f->made_on, &f->made_on_capacity, f->made_n + 1, sizeof *f->made_on)) {
         f->failed = true;
         return false;
     }
     f->made[f->made_n] = sunder_i_hpoint_at(l, a, b, &t);
+    f->made_on[f->made_n] = e < g ? e : g;
     const uint32_t node = r->vertices + (uint32_t)f->made_n++;
     return add_meet(f, e, node) && add_meet(f, g, node);
 }
@@ -150,14 +153,17 @@ static sunder_i_arc *cut_edges(finder *f, sunder_i_arena *arena, const uint32_t 
     if (!sunder_i_sort_keys(key, k)) return NULL;
     *n = 0;
     for (size_t i = 0; i + 1 < k; i++)
-        if (key[i] >> 32 == key[i + 1] >> 32 && key[i] != key[i + 1])
-            arc[(*n)++] = (sunder_i_arc){(uint32_t)key[i], (uint32_t)key[i + 1], (uint32_t)(key[i] >> 32)};
+        if (key[i] >> 32 == key[i + 1] >> 32 && key[i] != key[i + 1]) {
+            const uint32_t e = (uint32_t)(key[i] >> 32);
+            const int32_t turn = number[e] < number[r->next[e]] ? 1 : -1; /* the interior is on the left */
+            arc[(*n)++] = (sunder_i_arc){(uint32_t)key[i], (uint32_t)key[i + 1], e, turn};
+        }
     return arc;
 }
 
-/* Keeps one arc of each odd number of coincident ones, in their final order. Returns false if out of memory. */
-static bool keep_odd(const sunder_i_rings *r, sunder_i_arena *arena, const sunder_i_arc *arc, size_t n,
-                     sunder_i_arcs *out)
+/* Keeps at most one of several coincident arcs, in their final order. Returns false if out of memory. */
+static bool merge_arcs(const sunder_i_rings *r, bool winding, sunder_i_arena *arena, sunder_i_arc *arc, size_t n,
+                       sunder_i_arcs *out)
 {
     uint32_t *order = sunder_i_arena_alloc(arena, n, sizeof *order);
     out->arc = sunder_i_arena_alloc(arena, n, sizeof *out->arc);
@@ -167,8 +173,11 @@ static bool keep_odd(const sunder_i_rings *r, sunder_i_arena *arena, const sunde
     if (!sunder_i_sort_indices(order, n, arc_ends, &context)) return false;
     uint32_t kept = 0;
     for (size_t i = 0, j; i < n; i = j) {
-        for (j = i + 1; j < n && arc_ends(&context, order[i], order[j]) == 0;) j++;
-        if ((j - i) & 1) order[kept++] = order[i];
+        int32_t turn = 0;
+        for (j = i; j < n && arc_ends(&context, order[i], order[j]) == 0;) turn += arc[order[j++]].turn;
+        if (winding ? turn == 0 : !((j - i) & 1)) continue;
+        arc[order[i]].turn = turn;
+        order[kept++] = order[i];
     }
     if (!sunder_i_sort_indices(order, kept, arc_slope, &context)) return false;
     for (uint32_t i = 0; i < kept; i++) out->arc[i] = arc[order[i]];
@@ -176,7 +185,7 @@ static bool keep_odd(const sunder_i_rings *r, sunder_i_arena *arena, const sunde
     return true;
 }
 
-static bool find_arcs(finder *f, sunder_i_arena *arena, sunder_i_arcs *out)
+static bool find_arcs(finder *f, bool winding, sunder_i_arena *arena, sunder_i_arcs *out)
 {
     sunder_i_edge_tree tree;
     sunder_i_edge_tree_build(&tree, f->r, 0, f->r->rings, arena);
@@ -186,20 +195,22 @@ static bool find_arcs(finder *f, sunder_i_arena *arena, sunder_i_arcs *out)
     uint32_t *number = sunder_i_arena_alloc(arena, f->r->vertices + f->made_n, sizeof *number);
     if (!number || !number_nodes(f, arena, number, out)) return false;
     size_t n;
-    const sunder_i_arc *arc = cut_edges(f, arena, number, &n);
-    if (!arc || !keep_odd(f->r, arena, arc, n, out)) return false;
+    sunder_i_arc *arc = cut_edges(f, arena, number, &n);
+    if (!arc || !merge_arcs(f->r, winding, arena, arc, n, out)) return false;
     out->makes = (uint32_t)f->made_n;
     out->made = sunder_i_arena_alloc(arena, f->made_n, sizeof *out->made);
-    if (!out->made) return false;
+    out->made_on = sunder_i_arena_alloc(arena, f->made_n, sizeof *out->made_on);
+    if (arena->failed) return false;
     if (f->made_n) memcpy(out->made, f->made, f->made_n * sizeof *out->made);
+    if (f->made_n) memcpy(out->made_on, f->made_on, f->made_n * sizeof *out->made_on);
     return !f->r->lattice->arena.failed;
 }
 
-bool sunder_i_arcs_find(const sunder_i_rings *r, sunder_i_arena *arena, sunder_i_arcs *out)
+bool sunder_i_arcs_find(const sunder_i_rings *r, bool winding, sunder_i_arena *arena, sunder_i_arcs *out)
 {
     finder f = {.r = r};
     memset(out, 0, sizeof *out);
-    const bool found = find_arcs(&f, arena, out);
-    sunder_i_free_all(f.meets, f.made);
+    const bool found = find_arcs(&f, winding, arena, out);
+    sunder_i_free_all(f.meets, f.made, f.made_on);
     return found;
 }

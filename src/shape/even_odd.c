@@ -1,4 +1,4 @@
-/* even_odd.c: the even-odd set of a polygon's rings.
+/* even_odd.c: the set that a polygon's rings enclose, by the even-odd rule or where their winding number is positive.
  *
  * arcs.c converts the edges to arcs that meet at their ends only, each with odd multiplicity: so exactly one side of
  * each arc is inside. A sweep over the points in lexicographic order keeps the arcs that it crosses sorted from bottom
@@ -11,7 +11,10 @@
  *             p                 represents one sector.
  *
  * The first arc of a ring, in the order by lo and then from the bottom, begins at the ring's smallest point. The ring
- * is an outer one if the inside is above this arc; else it is a hole of the polygon whose ring is next below. */
+ * is an outer one if the inside is above this arc; else it is a hole of the polygon whose ring is next below.
+ *
+ * For winding numbers a first sweep determines the number of the face below each arc. The arcs with the number positive
+ * on one side only bound the set, and of these, again, exactly one side is inside. */
 #include "shape/even_odd.h"
 
 #include <string.h>
@@ -24,6 +27,7 @@ typedef struct sweep {
     uint32_t *follow;         /* for each directed arc the next one on its ring */
     uint32_t *around;         /* temporary: the arcs at a point, counterclockwise */
     bool *up;                 /* whether the inside is above the arc, so that it is directed from lo to hi */
+    int32_t *below;           /* the winding number of the face below each arc; NULL: not asked for */
 } sweep;
 
 /* Returns whether point p is above the line of the arc (+1), below it (-1), or its right end (0). */
@@ -57,6 +61,15 @@ static uint32_t rank_of_point(const sweep *s, uint32_t p)
     return lo;
 }
 
+/* Returns the winding number of the face below the active arc number `rank`: above the arc below it, if there is one,
+ * whose own face is known. */
+static int32_t winding_below(const sweep *s, uint32_t rank)
+{
+    if (rank == 0) return 0;
+    const uint32_t under = s->status[rank - 1];
+    return s->below[under] + s->in->arc[under].turn;
+}
+
 /* Processes point p: removes the arcs that end there, and inserts the arcs first .. last that begin there. */
 static void pass_point(sweep *s, uint32_t p, uint32_t first, uint32_t last)
 {
@@ -72,6 +85,7 @@ static void pass_point(sweep *s, uint32_t p, uint32_t first, uint32_t last)
         s->status[at + i] = first + i;
         s->up[first + i] = !((at + i) & 1);
         s->under[first + i] = at + i ? s->status[at + i - 1] : SUNDER_I_NONE;
+        if (s->below) s->below[first + i] = winding_below(s, at + i);
     }
     for (uint32_t i = 0; i < n; i++) {
         const uint32_t arc = s->around[i];
@@ -80,7 +94,7 @@ static void pass_point(sweep *s, uint32_t p, uint32_t first, uint32_t last)
     }
 }
 
-/* Processes the points in order; only those with arcs of odd multiplicity matter. Returns false if out of memory. */
+/* Processes the points in order; only those at the ends of arcs matter. Returns false if out of memory. */
 static bool run_sweep(sweep *s, sunder_i_arena *arena)
 {
     const uint32_t n = s->in->arcs;
@@ -170,15 +184,46 @@ static bool collect_rings(const sweep *s, sunder_i_arena *arena, sunder_i_even_o
     return true;
 }
 
+static bool trace_rings(const sunder_i_rings *r, const sunder_i_arcs *arcs, sunder_i_arena *arena,
+                        sunder_i_even_odd *out)
+{
+    sweep s = {.r = r, .in = arcs};
+    if (!run_sweep(&s, arena) || !collect_rings(&s, arena, out)) return false;
+    out->made = arcs->made;
+    out->makes = arcs->makes;
+    return !r->lattice->arena.failed;
+}
+
 bool sunder_i_even_odd_find(const sunder_i_rings *r, sunder_i_arena *arena, sunder_i_even_odd *out)
 {
+    sunder_i_arcs arcs;
     memset(out, 0, sizeof *out);
     if (r->rings == 0) return true;
+    return sunder_i_arcs_find(r, false, arena, &arcs) && trace_rings(r, &arcs, arena, out);
+}
+
+/* Keeps the arcs that bound the set of positive winding numbers. */
+static bool keep_boundary(const sunder_i_rings *r, sunder_i_arena *arena, sunder_i_arcs *arcs)
+{
+    sweep s = {.r = r, .in = arcs, .below = sunder_i_arena_alloc(arena, arcs->arcs, sizeof *s.below)};
+    if (!s.below || !run_sweep(&s, arena)) return false;
+    uint32_t kept = 0;
+    for (uint32_t k = 0; k < arcs->arcs; k++) {
+        const int32_t below = s.below[k], above = below + arcs->arc[k].turn;
+        if ((below > 0) != (above > 0)) arcs->arc[kept++] = arcs->arc[k];
+    }
+    arcs->arcs = kept;
+    return true;
+}
+
+bool sunder_i_winding_find(const sunder_i_rings *r, sunder_i_arena *arena, sunder_i_even_odd *out,
+                           const uint32_t **crossing_of)
+{
     sunder_i_arcs arcs;
-    if (!sunder_i_arcs_find(r, arena, &arcs)) return false;
-    sweep s = {.r = r, .in = &arcs};
-    if (!run_sweep(&s, arena) || !collect_rings(&s, arena, out)) return false;
-    out->made = arcs.made;
-    out->makes = arcs.makes;
-    return !r->lattice->arena.failed;
+    memset(out, 0, sizeof *out);
+    if (crossing_of) *crossing_of = NULL;
+    if (r->rings == 0) return true;
+    if (!sunder_i_arcs_find(r, true, arena, &arcs) || !keep_boundary(r, arena, &arcs)) return false;
+    if (crossing_of) *crossing_of = arcs.made_on;
+    return trace_rings(r, &arcs, arena, out);
 }

@@ -1,4 +1,5 @@
-/* even_odd.h: the set that the rings of a polygon enclose by the even-odd rule, exactly. */
+/* even_odd.h: the set that the rings of a polygon enclose by the even-odd rule, or where their winding number is
+ * positive, exactly. */
 #ifndef SUNDER_I_EVEN_ODD_H
 #define SUNDER_I_EVEN_ODD_H
 
@@ -19,20 +20,28 @@ typedef struct sunder_i_even_odd {
  * differ and each ring has at least two. Returns false if out of memory. */
 bool sunder_i_even_odd_find(const sunder_i_rings *r, sunder_i_arena *arena, sunder_i_even_odd *out);
 
+/* Computes the set of the points with a positive winding number in the same way. crossing_of: NULL, or *crossing_of
+ * becomes, for each crossing point, the lesser one of two edges that cross there. */
+bool sunder_i_winding_find(const sunder_i_rings *r, sunder_i_arena *arena, sunder_i_even_odd *out,
+                           const uint32_t **crossing_of);
+
 /* The arrangement, an intermediate result (see even_odd.c). An arc is a part of an edge between neighbouring points of
  * the arrangement, with point numbers lo < hi; points are numbered lexicographically. */
 typedef struct sunder_i_arc {
     uint32_t lo, hi, parent; /* parent: the edge that contains the arc */
+    int32_t turn;            /* by how much the winding number is greater above the arc than below it */
 } sunder_i_arc;
 
 typedef struct sunder_i_arcs {
     uint32_t points, arcs;
     uint32_t *node;    /* [points] for each point a vertex of r, or SUNDER_I_MADE + the number of a crossing */
-    sunder_i_arc *arc; /* the arcs with odd multiplicity, sorted by lo, then from bottom to top */
+    sunder_i_arc *arc; /* sorted by lo, then from bottom to top */
     sunder_i_hpoint *made;
+    uint32_t *made_on; /* [makes] the lesser one of two edges that cross at each */
     uint32_t makes;
 } sunder_i_arcs;
 
-bool sunder_i_arcs_find(const sunder_i_rings *r, sunder_i_arena *arena, sunder_i_arcs *out);
+/* Finds the arcs with odd multiplicity or, with `winding`, those at which the winding number changes. */
+bool sunder_i_arcs_find(const sunder_i_rings *r, bool winding, sunder_i_arena *arena, sunder_i_arcs *out);
 
 #endif

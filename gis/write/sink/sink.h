@@ -109,6 +109,9 @@ bool gis_sink_write_moved(gis_sink_layer *layer, OGRFeatureH feature, double dx,
 /* Writes feature i of the sink's source, translated by (dx, dy), into a like_source layer. */
 bool gis_sink_write_source(gis_sink_layer *layer, size_t i, double dx, double dy, const gis_value *values,
                            gis_error *error);
+/* Writes feature i of the sink's source with another geometry, which the layer then owns, into a like_source layer. */
+bool gis_sink_write_shaped(gis_sink_layer *layer, size_t i, OGRGeometryH geometry, const gis_value *values,
+                           gis_error *error);
 
 typedef struct gis_sink_result {
     bool exact;       /* the doubles that read back are the doubles that were written, so that `verified` may be

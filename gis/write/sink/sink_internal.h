@@ -261,6 +261,8 @@ gis_row gis_sink_line(gis_sink_layer *layer, const double from[2], const double 
 /* To be called after GDAL wrote a row: the first such row shows whether later ones can be written through SQLite. `fid`
  * is its FID. */
 void gis_sink_row_by_gdal(gis_sink_layer *layer, GIntBig fid);
+/* Writes the rows that wait, before GDAL writes one. */
+bool gis_sink_rows_flush(gis_sink_layer *layer, gis_error *error);
 /* Ends writing through SQLite; to be called when all rows are written, before GDAL stores the feature count. */
 bool gis_sink_rows_end(gis_sink_layer *layer, gis_error *error);
 void gis_sink_rows_clear(gis_sink_layer *layer);

@@ -326,6 +326,8 @@ void gis_sink_row_by_gdal(gis_sink_layer *layer, GIntBig fid)
     if (!rows->inserts.one && !begin_inserts(layer, fid)) gis_sink_rows_clear(layer);
 }
 
+bool gis_sink_rows_flush(gis_sink_layer *layer, gis_error *error) { return flush_rows(layer, error); }
+
 /* Called before the next layer is added, and at the end. */
 bool gis_sink_rows_end(gis_sink_layer *layer, gis_error *error)
 {

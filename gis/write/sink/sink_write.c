@@ -50,3 +50,16 @@ bool gis_sink_write_source(gis_sink_layer *layer, size_t i, double dx, double dy
     if (done) gis_sink_row_by_gdal(layer, gis_source_fid(source, i));
     return done;
 }
+
+bool gis_sink_write_shaped(gis_sink_layer *layer, size_t i, OGRGeometryH geometry, const gis_value *values,
+                           gis_error *error)
+{
+    const gis_source *source = layer->sink->source;
+    if (!layer->keep_sent && !gis_sink_rows_flush(layer, error)) {
+        OGR_G_DestroyGeometry(geometry);
+        return false;
+    }
+    const bool done = gis_sink_write(layer, gis_source_feature(source, i), geometry, values, error);
+    if (done && !layer->keep_sent) gis_sink_row_by_gdal(layer, gis_source_fid(source, i));
+    return done;
+}

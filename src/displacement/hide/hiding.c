@@ -1,15 +1,19 @@
-/* Hiding is an implicit hitting set problem: the clauses that a choice has to satisfy are not known beforehand.
+/* The choice of levels is an implicit hitting set problem: the clauses that it has to satisfy are not known beforehand.
  *
- *     repeat  lay the features out that are not hidden
- *             each conflict that remains gives a clause: the features of its proof cannot all be kept
- *             hide the cheapest features such that each clause has a hidden member
+ *     repeat  lay the features out with the shapes of their levels, except those that are hidden
+ *             each conflict that remains gives a clause: the features of its proof cannot all keep their levels
+ *             choose the cheapest levels such that each clause has a member with a greater one
  *     until   no conflict remains that a clause can be made of
  *
- * A proof that some features have no solution together holds whatever else is hidden, since blocks, limits, inclusions
- * and rows are those of the whole layer. So clauses of proofs are never given up, and the cheapest choice for them
- * alone costs no more than any choice that leaves no conflict. A conflict without a proof gives a tentative clause of
- * its two features; no bound rests on it. The clause of a conflict has no hidden member, so that it is new, and the
- * loop ends. */
+ * At first everything has its smallest shape. The clauses of these rounds say what has to be hidden whatever becomes
+ * smaller; then shapes are as given, and the clauses say what has to become smaller.
+ *
+ * A proof that some features have no solution together holds whatever else is hidden or becomes smaller, and whatever
+ * else becomes larger, since blocks, limits, anchors, inclusions and rows are those of the whole layer with the shapes
+ * as given, and since each shape of a feature lies in the one before. So clauses of proofs are never given up, and the
+ * cheapest choice for them alone costs no more than any choice that leaves no conflict. A conflict without a proof gives
+ * a tentative clause of its two features; no bound rests on it. The present choice does not satisfy the clause of a
+ * conflict, so that it is new, and the loop ends. */
 #include "displacement/hide/hiding.h"
 #include "displacement/hide/tuning.h"
 #include "displacement/prove/proofs/feasibility.h"
@@ -18,19 +22,40 @@
 
 #include <string.h>
 
+/* Takes the shapes of the present levels. Features that are not hidden get their smallest shapes if all do, or if they
+ * were in too many clauses. */
+static void take_levels(sunder_i_hiding *h)
+{
+    for (size_t f = 0; f < h->layer->n; f++) {
+        size_t n;
+        const sunder_level *smaller = sunder_i_levels_of(h->layer, f, &n);
+        if (h->level[f] < n && (h->smallest || h->times[f] > MOST_CLAUSES)) h->level[f] = (uint32_t)n;
+        h->hidden[f] = sunder_i_is_hidden_at(h->layer, f, h->level[f]);
+        if (h->shape) h->shape[f] = h->level[f] && !h->hidden[f] ? smaller[h->level[f] - 1].shape : h->layer->shape[f];
+    }
+}
+
 sunder_status sunder_i_hiding_begin(const sunder_layer *layer, sunder_i_hiding *hiding, sunder_error *err)
 {
     memset(hiding, 0, sizeof *hiding);
-    hiding->cost = layer->hiding;
-    hiding->n = layer->n;
+    hiding->layer = layer;
+    hiding->level = sunder_i_calloc(layer->n, sizeof *hiding->level);
     hiding->hidden = sunder_i_calloc(layer->n, sizeof *hiding->hidden);
-    return hiding->hidden ? SUNDER_OK : sunder_i_failure_cause(err);
+    hiding->times = sunder_i_calloc(layer->n, sizeof *hiding->times);
+    if (layer->level_end) {
+        hiding->shape = sunder_i_alloc(layer->n, sizeof *hiding->shape);
+        if (hiding->shape && layer->n) memcpy(hiding->shape, layer->shape, layer->n * sizeof *hiding->shape);
+    }
+    const bool ok = hiding->level && hiding->hidden && hiding->times && (hiding->shape || !layer->level_end);
+    hiding->smallest = layer->level_end && layer->hiding;
+    if (ok) take_levels(hiding);
+    return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
 void sunder_i_hiding_free(sunder_i_hiding *hiding)
 {
     for (size_t k = 0; k < hiding->sources; k++) sunder_i_proof_free(hiding->source[k].proof);
-    sunder_i_free_all(hiding->hidden, hiding->source);
+    sunder_i_free_all(hiding->level, hiding->hidden, hiding->times, (void *)hiding->shape, hiding->source);
     sunder_i_clauses_free(&hiding->clauses);
     memset(hiding, 0, sizeof *hiding);
 }
@@ -103,11 +128,27 @@ static bool note_source(sunder_i_hiding *h, const uint32_t *number, sunder_repor
     return true;
 }
 
-/* Makes a clause of these things, because of conflict k, and adds it, if at least one of them may be hidden. */
+/* May this thing, by the caller's number, get a greater level than it has? */
+static bool may_rise(const sunder_i_hiding *h, uint32_t thing)
+{
+    return thing < h->layer->n && h->level[thing] < sunder_i_last_level(h->layer, thing);
+}
+
+/* May it become smaller without being hidden? */
+static bool may_shrink(const sunder_i_hiding *h, uint32_t thing)
+{
+    size_t n;
+    if (thing >= h->layer->n) return false;
+    sunder_i_levels_of(h->layer, thing, &n);
+    return h->level[thing] < n;
+}
+
+/* Makes a clause of these things with their present levels, because of conflict k, and adds it, if at least one of them
+ * may get a greater one. */
 static bool add_clause(sunder_i_hiding *h, const uint32_t *number, sunder_report *report, size_t k, sunder_i_list *set,
                        bool proved, bool *added)
 {
-    sunder_i_list item = {0};
+    sunder_i_list item = {0}, level = {0};
     const size_t first = h->clauses.items;
     size_t members = 0;
     bool ok = true;
@@ -115,15 +156,18 @@ static bool add_clause(sunder_i_hiding *h, const uint32_t *number, sunder_report
     set->n = sunder_i_set_make(set->item, set->n);
     for (int others = 0; others < 2; others++) {
         for (size_t m = 0; m < set->n && ok; m++) {
-            const bool hideable = set->item[m] < h->n && h->cost[set->item[m]].hierarchy;
-            if (hideable != others) ok = sunder_i_list_push(&item, set->item[m]);
+            if (may_rise(h, set->item[m]) == others) continue;
+            ok = sunder_i_list_push(&item, set->item[m]) &&
+                 (others || sunder_i_list_push(&level, h->level[set->item[m]]));
         }
         if (!others) members = item.n;
     }
     *added = false;
-    if (ok && members) ok = sunder_i_clauses_add(&h->clauses, item.item, members, item.n - members, proved, added);
+    if (ok && members)
+        ok = sunder_i_clauses_add(&h->clauses, item.item, level.item, members, item.n - members, proved, added);
     if (ok && *added) ok = note_source(h, number, report, k, first, proved);
-    sunder_i_free(item.item);
+    for (size_t m = 0; m < members && *added; m++) h->times[item.item[m]] += !h->smallest;
+    sunder_i_free_all(item.item, level.item);
     return ok;
 }
 
@@ -173,19 +217,66 @@ static bool add_tentative(sunder_i_hiding *h, const sunder_i_model *model, const
     return ok;
 }
 
-/* A layout is first computed without effort, which finds most clauses; then with the caller's. Tentative clauses are
- * added only if no other is found. */
-sunder_status sunder_i_hiding_learn(sunder_i_hiding *hiding, const sunder_i_model *model, const uint32_t *number,
-                                    sunder_report *report, bool *again, sunder_error *err)
+/* ---- Rounds ------------------------------------------------------------------------------------------------------ */
+
+/* Adds tentative clauses of conflicts without a proof for which a member may become smaller: that costs little, and
+ * everything that is not hidden now has a solution with its smallest shape. */
+static bool add_shrinking(sunder_i_hiding *h, const sunder_i_model *model, const uint32_t *number,
+                          sunder_report *report, bool *any)
 {
-    hiding->rounds++;
-    *again = false;
-    bool ok = add_proved(hiding, model, number, report, again);
-    if (ok && !*again && hiding->thorough) ok = add_tentative(hiding, model, number, report, again);
-    const bool with_effort = !*again && !hiding->thorough;
-    *again = *again || with_effort;
-    hiding->thorough = with_effort || !*again;
+    sunder_i_list set = {0};
+    bool ok = true;
+    for (size_t k = 0; k < report->conflicts && ok; k++) {
+        const sunder_conflict *c = &report->conflict[k];
+        bool proved, added = false;
+        if (!counts(c) || !(may_shrink(h, number[c->a]) || may_shrink(h, number[c->b]))) continue;
+        ok = list_things(model, report, k, &proved, &set) && add_clause(h, number, report, k, &set, proved, &added);
+        *any = *any || added;
+    }
+    sunder_i_free(set.item);
+    return ok;
+}
+
+static bool any_counts(const sunder_report *report)
+{
+    for (size_t k = 0; k < report->conflicts; k++)
+        if (counts(&report->conflict[k])) return true;
+    return false;
+}
+
+/* What follows a layout from which nothing was learnt. With smallest shapes the conflicts decide what is hidden; the
+ * layout itself is of no use. */
+static sunder_i_hiding_step step_after(const sunder_i_hiding *h, bool conflicts)
+{
+    if (h->step == SUNDER_I_HIDING_QUICK) {
+        if (conflicts) return SUNDER_I_HIDING_PROVE;
+        return h->smallest ? SUNDER_I_HIDING_END : SUNDER_I_HIDING_THOROUGH;
+    }
+    return h->step == SUNDER_I_HIDING_PROVE ? SUNDER_I_HIDING_THOROUGH : SUNDER_I_HIDING_END;
+}
+
+static sunder_status choose(sunder_i_hiding *h, sunder_error *err)
+{
+    sunder_i_cover_result result = {.level = h->level};
+    const sunder_status status =
+        sunder_i_cover_find(&h->clauses, SUNDER_I_COVER_ALL, h->layer, COVER_EFFORT, &result, err);
+    take_levels(h);
+    return status;
+}
+
+sunder_status sunder_i_hiding_learn(sunder_i_hiding *h, const sunder_i_model *model, const uint32_t *number,
+                                    sunder_report *report, sunder_error *err)
+{
+    bool learnt = false;
+    h->rounds += h->step != SUNDER_I_HIDING_PROVE;
+    bool ok = add_proved(h, model, number, report, &learnt);
+    if (ok && !learnt && !h->smallest) ok = add_shrinking(h, model, number, report, &learnt);
+    if (ok && !learnt && h->step == SUNDER_I_HIDING_THOROUGH) ok = add_tentative(h, model, number, report, &learnt);
     if (!ok) return sunder_i_failure_cause(err);
-    sunder_i_cover_result result = {.hidden = hiding->hidden};
-    return sunder_i_cover_find(&hiding->clauses, false, hiding->cost, hiding->n, COVER_EFFORT, &result, err);
+    h->step = learnt ? SUNDER_I_HIDING_QUICK : step_after(h, any_counts(report));
+    if (learnt) return choose(h, err);
+    if (h->step != SUNDER_I_HIDING_END || !h->smallest) return SUNDER_OK;
+    h->smallest = false;
+    h->step = SUNDER_I_HIDING_QUICK;
+    return choose(h, err);
 }

@@ -1,4 +1,4 @@
-/* Which features are left out, because a layout of all of them does not exist. See hiding.c. */
+/* Which features become smaller or are left out, because a layout of all of them does not exist. See hiding.c. */
 #ifndef SUNDER_I_HIDING_H
 #define SUNDER_I_HIDING_H
 
@@ -14,31 +14,41 @@ typedef struct sunder_i_clause_source {
     sunder_proof *proof; /* NULL if there is none, or if proofs are not kept */
 } sunder_i_clause_source;
 
+/* What a round does. */
+typedef enum sunder_i_hiding_step {
+    SUNDER_I_HIDING_QUICK,    /* a layout without effort, which finds most clauses */
+    SUNDER_I_HIDING_PROVE,    /* proofs with the caller's effort for the conflicts of that layout */
+    SUNDER_I_HIDING_THOROUGH, /* a layout with the caller's effort */
+    SUNDER_I_HIDING_END       /* the last layout remains; its conflicts are among features that may become no smaller */
+} sunder_i_hiding_step;
+
 /* The work on one layer. Features are numbered as the caller numbers them, barrier k as the number of features + k. */
 typedef struct sunder_i_hiding {
-    const sunder_hiding_cost *cost; /* [n] borrowed from the layer */
-    size_t n;
-    bool *hidden; /* [n] the present choice */
+    const sunder_layer *layer;  /* borrowed */
+    uint32_t *level;            /* [n] the present choice ... */
+    bool *hidden;               /* [n] ... which of the features are hidden ... */
+    const sunder_shape **shape; /* [n] ... and the shapes of all others; NULL: no feature has smaller ones */
     sunder_i_clauses clauses;
     sunder_i_clause_source *source; /* [sources] ascending by `first` */
     size_t sources, source_room;
-    bool keep_proofs; /* of the clauses */
-    bool thorough;    /* layouts are computed with the caller's effort; before that with none */
-    size_t rounds;    /* the number of layouts computed */
+    bool keep_proofs;          /* of the clauses */
+    uint32_t *times;           /* [n] the number of clauses that each was in since shapes are as given */
+    bool smallest;             /* everything that is not hidden has its smallest shape */
+    sunder_i_hiding_step step; /* the next one */
+    size_t rounds;             /* the number of layouts computed */
 } sunder_i_hiding;
 
 /* Begins with nothing hidden. The caller frees it, also after a failure. */
 sunder_status sunder_i_hiding_begin(const sunder_layer *layer, sunder_i_hiding *hiding, sunder_error *err);
 void sunder_i_hiding_free(sunder_i_hiding *hiding);
-/* Learns from the conflicts that remain in a layout of the features that are not hidden, and chooses again.
+/* Learns from the conflicts that remain in a layout with the present choice, chooses again, and sets the next step.
  *
  * number  [things of the model] the caller's numbers
- * report  the proofs that are kept are taken from it
- * again   whether the choice has to be tried; otherwise the layout is the last one, and its conflicts are among
- *         features that may not be hidden */
+ * report  the proofs that are kept are taken from it */
 sunder_status sunder_i_hiding_learn(sunder_i_hiding *hiding, const sunder_i_model *model, const uint32_t *number,
-                                    sunder_report *report, bool *again, sunder_error *err);
-/* Writes what is hidden, and what is proved of it, to the report, which receives the proofs of the clauses. */
+                                    sunder_report *report, sunder_error *err);
+/* Writes what is hidden or smaller, and what is proved of it, to the report, which receives the proofs of the
+ * clauses and the levels. */
 sunder_status sunder_i_hiding_report(sunder_i_hiding *hiding, sunder_report *report, sunder_error *err);
 
 #endif

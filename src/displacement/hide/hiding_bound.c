@@ -18,7 +18,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The levels of a feature are 0, as given, and 1, hidden; a clause demands a level above 0. */
+/* Here the levels of a feature are 0, visible with whatever shape, and 1, hidden; a clause demands a level above 0. */
 enum { LEVELS = 2, LEVEL_OF_CLAUSE = 0 };
 
 /* The component at hand. Features are numbered within it. */
@@ -223,8 +223,9 @@ static bool write_tree(branching *b)
 /* ---- Components -------------------------------------------------------------------------------------------------- */
 
 /* Fills in the costs, and that of the best choice. */
-static void find_costs(branching *b, const sunder_hiding_cost *cost, const bool *best)
+static void find_costs(branching *b, const sunder_layer *layer, const uint32_t *best)
 {
+    const sunder_hiding_cost *cost = layer->hiding;
     for (size_t f = 0; f < b->features; f++) {
         const uint32_t number = b->feature[f];
         const uint32_t *class =
@@ -232,7 +233,7 @@ static void find_costs(branching *b, const sunder_hiding_cost *cost, const bool 
         for (uint32_t level = 1; level < LEVELS; level++)
             cost_of(b, (uint32_t)f, level)[class - b->class] = cost[number].weight;
         b->high[f] = LEVELS - 1;
-        if (best[number]) b->target[class - b->class] += cost[number].weight;
+        if (sunder_i_is_hidden_at(layer, number, best[number])) b->target[class - b->class] += cost[number].weight;
     }
 }
 
@@ -245,7 +246,7 @@ static void clear_negative(int64_t *weight, size_t n)
     for (; k < n; k++) weight[k] = 0;
 }
 
-static bool make_tree(branching *b, const sunder_hiding_cost *cost, const bool *best)
+static bool make_tree(branching *b, const sunder_layer *layer, const uint32_t *best)
 {
     int64_t **const all[] = {&b->spent, &b->value, &b->share, &b->target, &b->least};
     sunder_i_hiding_bound *out = b->out;
@@ -263,7 +264,7 @@ static bool make_tree(branching *b, const sunder_hiding_cost *cost, const bool *
          sunder_i_reserve(&out->tree, &out->tree_room, out->trees + 1, sizeof *out->tree);
     sunder_hiding_tree tree = {.node = out->nodes};
     if (ok) {
-        find_costs(b, cost, best);
+        find_costs(b, layer, best);
         ok = write_tree(b);
         clear_negative(b->least, b->classes);
         tree.nodes = out->nodes - tree.node;
@@ -292,7 +293,7 @@ static int by_component(const void *x, const void *y)
 
 /* Makes the tree of the component of these n clauses. place: room for all features. */
 static bool bound_component(const sunder_i_clauses *clauses, const placed *list, size_t n, uint32_t *place,
-                            const sunder_hiding_cost *cost, const bool *best, size_t effort, sunder_i_hiding_bound *out)
+                            const sunder_layer *layer, const uint32_t *best, size_t effort, sunder_i_hiding_bound *out)
 {
     sunder_i_list clause = {0}, feature = {0}, class = {0};
     bool ok = true;
@@ -304,7 +305,7 @@ static bool bound_component(const sunder_i_clauses *clauses, const placed *list,
     feature.n = sunder_i_set_make(feature.item, feature.n);
     for (size_t f = 0; f < feature.n && ok; f++) {
         place[feature.item[f]] = (uint32_t)f;
-        ok = sunder_i_list_push(&class, cost[feature.item[f]].hierarchy);
+        ok = sunder_i_list_push(&class, layer->hiding[feature.item[f]].hierarchy);
     }
     class.n = sunder_i_set_make(class.item, class.n);
     branching b = {.clauses = clauses,
@@ -317,15 +318,26 @@ static bool bound_component(const sunder_i_clauses *clauses, const placed *list,
                    .classes = class.n,
                    .left = effort + 2 * feature.n,
                    .out = out};
-    ok = ok && make_tree(&b, cost, best);
+    ok = ok && make_tree(&b, layer, best);
     sunder_i_free_all(clause.item, feature.item, class.item);
     return ok;
 }
 
-sunder_status sunder_i_hiding_bound_find(const sunder_i_clauses *clauses, const sunder_hiding_cost *cost,
-                                         size_t features, const bool *best, size_t effort, sunder_i_hiding_bound *bound,
+/* Can this clause be satisfied by nothing but a hidden member, by a proof? The others bind no hidden weight: with the
+ * smallest shapes all of them are satisfied. */
+static bool counts(const sunder_i_clauses *clauses, const sunder_i_clause *c, const sunder_layer *layer)
+{
+    if (!c->proved || c->n == 0) return false;
+    for (size_t m = c->first; m < c->first + c->n; m++)
+        if (!sunder_i_is_hidden_at(layer, clauses->item[m], clauses->level[m] + 1)) return false;
+    return true;
+}
+
+sunder_status sunder_i_hiding_bound_find(const sunder_i_clauses *clauses, const sunder_layer *layer,
+                                         const uint32_t *best, size_t effort, sunder_i_hiding_bound *bound,
                                          sunder_error *err)
 {
+    const size_t features = layer->n;
     uint32_t *parent = sunder_i_alloc(features, sizeof *parent), *place = sunder_i_alloc(features, sizeof *place);
     placed *list = sunder_i_alloc(clauses->n, sizeof *list);
     bool ok = parent && place && list;
@@ -333,7 +345,7 @@ sunder_status sunder_i_hiding_bound_find(const sunder_i_clauses *clauses, const 
     if (ok) sunder_i_union_init(parent, features);
     for (size_t k = 0; k < clauses->n && ok; k++) {
         const sunder_i_clause *c = &clauses->clause[k];
-        if (!c->proved || c->n == 0) continue;
+        if (!counts(clauses, c, layer)) continue;
         list[n++] = (placed){0, (uint32_t)c->n, (uint32_t)k};
         for (size_t m = 1; m < c->n; m++)
             sunder_i_union_join(parent, clauses->item[c->first], clauses->item[c->first + m]);
@@ -343,7 +355,7 @@ sunder_status sunder_i_hiding_bound_find(const sunder_i_clauses *clauses, const 
     if (n) qsort(list, n, sizeof *list, by_component);
     for (size_t k = 0, end; k < n && ok; k = end) {
         for (end = k + 1; end < n && list[end].root == list[k].root;) end++;
-        ok = bound_component(clauses, list + k, end - k, place, cost, best, effort, bound);
+        ok = bound_component(clauses, list + k, end - k, place, layer, best, effort, bound);
     }
     sunder_i_free_all(parent, place, list);
     return ok ? SUNDER_OK : sunder_i_failure_cause(err);

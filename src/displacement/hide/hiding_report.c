@@ -1,5 +1,6 @@
 /* What is proved of a choice: no choice without a conflict is better than the bound, which rests on the proved clauses
- * alone. Where the choice hides the same weight of each class as the bound says, it is proved to be the best. */
+ * alone. Where the choice hides the same weight of each class as the bound says, it is proved to be the best. With what is
+ * hidden, the least cost of other levels for the proved clauses is a bound for that cost. */
 #include "displacement/hide/hiding.h"
 #include "displacement/hide/hiding_bound.h"
 #include "displacement/hide/tuning.h"
@@ -7,6 +8,7 @@
 #include "base/union_find.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 /* A difference of hidden weight in one class of one component. */
 typedef struct difference {
@@ -17,15 +19,16 @@ typedef struct difference {
 /* The components of all clauses: the least member of each feature's. Features in no clause are alone. */
 static uint32_t *find_roots(const sunder_i_hiding *h)
 {
-    uint32_t *parent = sunder_i_alloc(h->n, sizeof *parent);
+    const size_t n = h->layer->n;
+    uint32_t *parent = sunder_i_alloc(n, sizeof *parent);
     if (!parent) return NULL;
-    sunder_i_union_init(parent, h->n);
+    sunder_i_union_init(parent, n);
     for (size_t k = 0; k < h->clauses.n; k++) {
         const sunder_i_clause *c = &h->clauses.clause[k];
         const uint32_t *member = h->clauses.item + c->first;
         for (size_t m = 1; m < c->n; m++) sunder_i_union_join(parent, member[0], member[m]);
     }
-    for (size_t f = 0; f < h->n; f++) parent[f] = sunder_i_union_find(parent, (uint32_t)f);
+    for (size_t f = 0; f < n; f++) parent[f] = sunder_i_union_find(parent, (uint32_t)f);
     return parent;
 }
 
@@ -38,8 +41,9 @@ static size_t list_differences(const sunder_i_hiding *h, const uint32_t *root, c
                                difference *list)
 {
     size_t n = 0;
-    for (uint32_t f = 0; f < h->n; f++)
-        if (h->hidden[f]) list[n++] = (difference){root[f], h->cost[f].hierarchy, h->cost[f].weight};
+    for (uint32_t f = 0; f < h->layer->n; f++)
+        if (h->hidden[f])
+            list[n++] = (difference){root[f], h->layer->hiding[f].hierarchy, h->layer->hiding[f].weight};
     for (size_t t = 0; t < bound->trees; t++)
         for (size_t k = 0; k < bound->tree[t].bounds; k++) {
             const sunder_hiding_share *of = &bound->share[bound->tree[t].bound + k];
@@ -116,8 +120,10 @@ static bool report_clauses(sunder_i_hiding *h, sunder_report *report)
     const sunder_i_clauses *c = &h->clauses;
     size_t *number = sunder_i_alloc(2 * c->items, sizeof *number);
     report->clause = sunder_i_alloc(c->n, sizeof *report->clause);
+    report->clause_level = sunder_i_alloc(c->items, sizeof *report->clause_level);
     report->clause_number = number;
-    if (!number || !report->clause) return false;
+    if (!number || !report->clause || !report->clause_level) return false;
+    if (c->items) memcpy(report->clause_level, c->level, c->items * sizeof *c->level);
     for (size_t k = 0; k < c->n; k++) {
         const sunder_i_clause *from = &c->clause[k];
         size_t *thing = number + from->n;
@@ -126,8 +132,8 @@ static bool report_clauses(sunder_i_hiding *h, sunder_report *report)
         qsort(thing, from->n + from->others, sizeof *thing, by_size);
         sunder_i_clause_source *source = bsearch(&from->first, h->source, h->sources, sizeof *source, by_first);
         report->clause[k] =
-            (sunder_clause){number,    thing,     from->n,        from->n + from->others, from->proved,
-                            source->a, source->b, source->reason, source->crowded,        source->proof};
+            (sunder_clause){number,       thing,     report->clause_level + from->first, from->n, from->n + from->others,
+                            from->proved, source->a, source->b, source->reason, source->crowded, source->proof};
         source->proof = NULL;
         number = thing + from->n + from->others;
     }
@@ -137,7 +143,7 @@ static bool report_clauses(sunder_i_hiding *h, sunder_report *report)
 /* Fills in the counts of clauses and components. */
 static void count_clauses(const sunder_i_hiding *h, const unsigned char *state, sunder_hiding_summary *out)
 {
-    for (size_t f = 0; f < h->n; f++) {
+    for (size_t f = 0; f < h->layer->n; f++) {
         out->components += state[f] != NO_COMPONENT;
         out->components_best += state[f] == BEST;
     }
@@ -153,8 +159,8 @@ static void count_clauses(const sunder_i_hiding *h, const unsigned char *state, 
 static bool compare_with_bound(const sunder_i_hiding *h, const sunder_i_hiding_bound *bound, sunder_report *report)
 {
     uint32_t *root = find_roots(h);
-    unsigned char *state = sunder_i_calloc(h->n, sizeof *state);
-    difference *list = sunder_i_alloc(h->n + bound->shares, sizeof *list);
+    unsigned char *state = sunder_i_calloc(h->layer->n, sizeof *state);
+    difference *list = sunder_i_alloc(h->layer->n + bound->shares, sizeof *list);
     bool ok = root && state && list;
     if (ok) {
         const size_t n = list_differences(h, root, bound, list);
@@ -166,20 +172,50 @@ static bool compare_with_bound(const sunder_i_hiding *h, const sunder_i_hiding_b
     return ok;
 }
 
+/* Returns the cost of a level with which the feature is not hidden. */
+static int64_t cost_of(const sunder_layer *layer, size_t feature, uint32_t level)
+{
+    size_t n;
+    const sunder_level *smaller = sunder_i_levels_of(layer, feature, &n);
+    return level && level <= n ? smaller[level - 1].cost : 0;
+}
+
+/* Sums up what is smaller, and bounds its cost. level: scratch [n]. */
+static sunder_status report_smaller(const sunder_i_hiding *h, uint32_t *level, sunder_hiding_summary *out,
+                                    sunder_error *err)
+{
+    const size_t n = h->layer->n;
+    sunder_i_cover_result result = {.level = level};
+    if (!h->layer->level_end) return SUNDER_OK;
+    if (n) memcpy(level, h->level, n * sizeof *level);
+    const sunder_status status =
+        sunder_i_cover_find(&h->clauses, SUNDER_I_COVER_SHRINKING, h->layer, COVER_EFFORT, &result, err);
+    const bool exact = result.exact == result.components;
+    for (size_t f = 0; f < n && !status; f++) {
+        out->smaller += h->level[f] > 0 && !h->hidden[f];
+        out->smaller_cost += cost_of(h->layer, f, h->level[f]);
+        if (exact) out->smaller_least += cost_of(h->layer, f, level[f]);
+    }
+    return status;
+}
+
 sunder_status sunder_i_hiding_report(sunder_i_hiding *hiding, sunder_report *report, sunder_error *err)
 {
-    bool *best = sunder_i_alloc(hiding->n, sizeof *best);
-    sunder_i_cover_result result = {.hidden = best};
+    uint32_t *best = sunder_i_alloc(hiding->layer->n, sizeof *best);
+    sunder_i_cover_result result = {.level = best};
     sunder_i_hiding_bound bound = {0};
     sunder_status status = best ? SUNDER_OK : sunder_i_failure_cause(err);
     if (!status)
-        status = sunder_i_cover_find(&hiding->clauses, true, hiding->cost, hiding->n, COVER_EFFORT, &result, err);
+        status = sunder_i_cover_find(&hiding->clauses, SUNDER_I_COVER_PROVED, hiding->layer, COVER_EFFORT, &result, err);
     if (!status)
-        status = sunder_i_hiding_bound_find(&hiding->clauses, hiding->cost, hiding->n, best, BOUND_EFFORT, &bound, err);
+        status = sunder_i_hiding_bound_find(&hiding->clauses, hiding->layer, best, BOUND_EFFORT, &bound, err);
     if (!status && !(compare_with_bound(hiding, &bound, report) && report_clauses(hiding, report)))
         status = sunder_i_failure_cause(err);
+    if (!status) status = report_smaller(hiding, best, &report->hiding, err);
     report->hiding_trees =
         (sunder_hiding_trees){bound.tree, bound.node, bound.share, bound.trees, bound.nodes, bound.shares};
+    report->level = hiding->level;
+    hiding->level = NULL;
     sunder_i_free(best);
     return status;
 }

@@ -10,4 +10,8 @@
 /* The tree of a component's bound is divided BOUND_EFFORT times, and twice for each of its features. */
 #define BOUND_EFFORT 1000u
 
+/* A feature that was in more than MOST_CLAUSES clauses, not counting those of smallest shapes, has its smallest shape:
+ * several features can share what is missing in many ways, which differ little. */
+#define MOST_CLAUSES 8u
+
 #endif

@@ -2,6 +2,9 @@
  * anchor lies in another feature (as a closed set) may leave that feature. A feature that moves by less than the
  * distance from its anchor to the nearest other feature cannot jump over any.
  *
+ * All of this is about the features as they were given, whatever smaller shapes they have now: what may move without a
+ * jump may do so, too, when it or another feature becomes smaller.
+ *
  * An anchor is an interior point of its feature, rounded to doubles (sunder_shape_anchor()); for a sliver the rounded
  * point may lie beside the feature. The rules on jumps refer to the rounded point, so they are exact in any case. An
  * anchor never lies outside its feature's box, since rounding is monotone. */
@@ -61,7 +64,7 @@ static sunder_status test_neighbour(holder_search *l, uint32_t f, uint32_t g, do
     bool holds = false;
     if (!sunder_i_box_near_point(box, a[0], a[1], *clear)) return SUNDER_OK;
     if (sunder_i_box_near_point(box, a[0], a[1], 0)) {
-        const sunder_status status = sunder_i_holds(sunder_i_thing_shape(model, g), a, &holds, err);
+        const sunder_status status = sunder_i_holds(sunder_i_given_shape(model, g), a, &holds, err);
         if (status) return status;
     }
     if (!holds) {
@@ -193,7 +196,7 @@ static sunder_status find_anchors(void *context, size_t begin, size_t end, sunde
     const sunder_i_model *model = context;
     (void)err;
     for (size_t f = begin; f < end; f++)
-        if (model->present[f]) sunder_shape_anchor(sunder_i_thing_shape(model, f), model->anchor_at + 2 * f);
+        if (model->present[f]) sunder_shape_anchor(sunder_i_given_shape(model, f), model->anchor_at + 2 * f);
     return SUNDER_OK;
 }
 

@@ -2,6 +2,7 @@
 #include "displacement/layer/layer.h"
 
 #include "base/memory.h"
+#include "separation/separation.h"
 
 #include <math.h>
 #include <string.h>
@@ -138,9 +139,60 @@ sunder_status sunder_layer_set_hiding(sunder_layer *layer, const sunder_hiding_c
     return SUNDER_OK;
 }
 
+/* Checks the levels of feature k: each lies in the shape before it and costs no less. */
+static sunder_status check_levels(const sunder_layer *layer, size_t k, const sunder_level *level, size_t n,
+                                  sunder_error *err)
+{
+    const sunder_shape *before = layer->shape[k];
+    int64_t least = 0;
+    for (size_t i = 0; i < n; i++) {
+        bool in = before && level[i].shape && !sunder_shape_is_empty(level[i].shape);
+        const sunder_status status = in ? sunder_i_contained(level[i].shape, NULL, before, NULL, &in, err) : SUNDER_OK;
+        if (status) return status;
+        if (!in)
+            return sunder_i_fail(err, SUNDER_EARG, "feature %zu: level %zu does not lie in the level before it", k,
+                                 i + 1);
+        if (level[i].cost < least || level[i].cost > SUNDER_GREATEST_HIDING_WEIGHT)
+            return sunder_i_fail(err, SUNDER_EARG, "feature %zu: the cost of level %zu, %lld, is out of range", k,
+                                 i + 1, (long long)level[i].cost);
+        before = level[i].shape;
+        least = level[i].cost;
+    }
+    return SUNDER_OK;
+}
+
+sunder_status sunder_layer_set_levels(sunder_layer *layer, const sunder_level *level, const size_t *end,
+                                      sunder_error *err)
+{
+    for (size_t k = 0, first = 0; end && k < layer->n; first = end[k++]) {
+        if (end[k] < first) return sunder_i_fail(err, SUNDER_EARG, "feature %zu: ends of levels do not ascend", k);
+        const sunder_status status = check_levels(layer, k, level + first, end[k] - first, err);
+        if (status) return status;
+    }
+    void *levels = NULL, *ends;
+    const size_t n = end && layer->n ? end[layer->n - 1] : 0;
+    if (!copy_items(end, layer->n, sizeof *end, &ends) || (n && !copy_items(level, n, sizeof *level, &levels))) {
+        sunder_i_free(ends);
+        return sunder_i_failure_cause(err);
+    }
+    sunder_i_free_all(layer->level, layer->level_end);
+    layer->level = levels;
+    layer->level_end = ends;
+    return SUNDER_OK;
+}
+
+sunder_status sunder_i_layer_lower(sunder_layer *layer, const sunder_shape *const *shape, sunder_error *err)
+{
+    void *copy;
+    if (!copy_items(shape, layer->n, sizeof *shape, &copy)) return sunder_i_failure_cause(err);
+    sunder_i_free((void *)layer->at_level);
+    layer->at_level = copy;
+    return SUNDER_OK;
+}
+
 void sunder_layer_free(sunder_layer *layer)
 {
     if (!layer) return;
     sunder_i_free_all((void *)layer->shape, layer->demand, layer->demands, layer->barrier, layer->side_anchor,
-                      layer->row, layer->hiding, layer);
+                      layer->row, layer->hiding, layer->level, layer->level_end, (void *)layer->at_level, layer);
 }

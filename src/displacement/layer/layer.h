@@ -23,12 +23,16 @@ struct sunder_layer {
                           * are given */
     int64_t *row;        /* [n] the row of each feature, -1 for none, as the caller gives them; NULL: none are given */
     sunder_hiding_cost *hiding; /* [n] what it costs to hide each; NULL: none is hidden */
+    sunder_level *level;        /* the smaller shapes that features may have, feature by feature ... */
+    size_t *level_end;          /* [n] ... and the index past the last one of each; NULL: there are none */
+    const sunder_shape **at_level; /* [n] the shapes that features have now; NULL: those of shape[] */
     /* A layer in processing order (feature_order.c) stores no features of its own but has the next three; otherwise
-     * they are NULL: */
+     * they are NULL, and `lowered` is false: */
     const sunder_layer *given; /* the layer in the caller's order */
     uint32_t *number; /* [n + parts] the caller's number of each feature; for a part of a barrier, n plus the number of
                        * the barrier */
     sunder_feature *part; /* [parts] the parts of barriers, as fixed features */
+    bool lowered;         /* features have the shapes given->at_level (lowered_features.c) */
 };
 
 /* The demands on feature k of a layer in the caller's order, without its shape. */
@@ -37,7 +41,15 @@ static inline const sunder_feature *sunder_i_demands(const sunder_layer *given, 
     return &given->demands[given->demand ? given->demand[k] : 0];
 }
 
-/* Feature k of a layer in the caller's order, with its shape. */
+/* Returns the smaller shapes that feature k may have, from the largest on, and sets *n to their number. */
+static inline const sunder_level *sunder_i_levels_of(const sunder_layer *given, size_t k, size_t *n)
+{
+    const size_t first = given->level_end && k ? given->level_end[k - 1] : 0;
+    *n = given->level_end ? given->level_end[k] - first : 0;
+    return *n ? given->level + first : NULL;
+}
+
+/* Feature k of a layer in the caller's order, with its shape as given. */
 static inline sunder_feature sunder_i_given_feature(const sunder_layer *given, size_t k)
 {
     sunder_feature feature = *sunder_i_demands(given, k);
@@ -45,7 +57,8 @@ static inline sunder_feature sunder_i_given_feature(const sunder_layer *given, s
     return feature;
 }
 
-/* A feature of a layer in processing order, or a part of a barrier, numbered after the features. */
+/* A feature of a layer in processing order with its shape as given, or a part of a barrier, numbered after the
+ * features. */
 static inline sunder_feature sunder_i_feature(const sunder_layer *layer, size_t thing)
 {
     return thing < layer->n ? sunder_i_given_feature(layer->given, layer->number[thing])
@@ -57,6 +70,9 @@ static inline bool sunder_i_is_present(const sunder_feature *feature)
 {
     return !feature->ignored && feature->shape && !sunder_shape_is_empty(feature->shape);
 }
+
+/* Gives the features of a layer in the caller's order the shapes shape[n], which the caller keeps. */
+sunder_status sunder_i_layer_lower(sunder_layer *layer, const sunder_shape *const *shape, sunder_error *err);
 
 /* ---- rules.c ----------------------------------------------------------------------------------------------------- */
 

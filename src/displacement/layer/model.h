@@ -239,14 +239,22 @@ static inline uint32_t sunder_i_barrier_of(const sunder_i_model *model, uint32_t
     return model->barriers->barrier[part - model->features];
 }
 
-/* Returns the shape of a thing at its original position. */
+/* Returns the shape of a thing at its original position; of a feature at its present level. */
 static inline const sunder_shape *sunder_i_thing_shape(const sunder_i_model *model, size_t thing)
 {
     const sunder_layer *layer = model->layer;
-    return thing < layer->n ? layer->given->shape[layer->number[thing]] : layer->part[thing - layer->n].shape;
+    if (thing >= layer->n) return layer->part[thing - layer->n].shape;
+    return (layer->lowered ? layer->given->at_level : layer->given->shape)[layer->number[thing]];
 }
 
-/* Returns the box of a thing at its original position; zeros if the thing is not present. */
+/* Returns the shape of a feature as it was given, from which its anchors are computed. */
+static inline const sunder_shape *sunder_i_given_shape(const sunder_i_model *model, size_t feature)
+{
+    return model->layer->given->shape[model->layer->number[feature]];
+}
+
+/* Returns a box that contains the thing at its original position, and a feature's shape as given too; zeros if the
+ * thing is not present. */
 static inline const double *sunder_i_home_box(const sunder_i_model *model, uint32_t thing)
 {
     return sunder_i_rtree_box(&model->tree, thing);

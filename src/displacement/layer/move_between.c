@@ -24,6 +24,15 @@ static bool same_rings(const sunder_shape *p, const sunder_shape *q)
            memcmp(p->form->given.ring_end, q->form->given.ring_end, rings * sizeof *p->form->given.ring_end) == 0;
 }
 
+/* The same for their cleaned forms. */
+static bool same_cleaned_rings(const sunder_shape *p, const sunder_shape *q)
+{
+    const sunder_i_cleaned *a = &p->form->cleaned, *b = &q->form->cleaned;
+    return p->vertices == q->vertices && a->rings == b->rings && a->polygons == b->polygons &&
+           memcmp(a->ring_end, b->ring_end, a->rings * sizeof *a->ring_end) == 0 &&
+           memcmp(a->poly_end, b->poly_end, a->polygons * sizeof *a->poly_end) == 0;
+}
+
 /* Coordinate c of each of the n vertices, before and after the move. */
 typedef struct coordinates {
     const double *before, *after;
@@ -96,12 +105,24 @@ static bool find_along(const coordinates *k, double *t)
     return low <= high && isfinite(*t);
 }
 
+static bool find_move(const double *before, const double *after, size_t n, double t[2])
+{
+    coordinates k = {before, after, n, 0};
+    for (; k.c < 2; k.c++)
+        if (!find_along(&k, &t[k.c])) return false;
+    return true;
+}
+
 bool sunder_i_move_between(const sunder_shape *before, const sunder_shape *after, double t[2])
 {
     t[0] = t[1] = 0;
     if (!same_rings(before, after)) return false;
-    coordinates k = {before->raw_xy, after->raw_xy, sunder_i_shape_raw_vertices(before), 0};
-    for (; k.c < 2; k.c++)
-        if (!find_along(&k, &t[k.c])) return false;
-    return true;
+    return find_move(before->raw_xy, after->raw_xy, sunder_i_shape_raw_vertices(before), t);
+}
+
+bool sunder_i_move_between_sets(const sunder_shape *before, const sunder_shape *after, double t[2])
+{
+    t[0] = t[1] = 0;
+    return same_cleaned_rings(before, after) && !before->rational && !after->rational &&
+           find_move(before->xy, after->xy, before->vertices, t);
 }

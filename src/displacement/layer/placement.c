@@ -22,9 +22,9 @@ sunder_status sunder_i_placement_init(const sunder_i_model *model, sunder_i_plac
     placement->move = sunder_i_calloc(2 * n, sizeof *placement->move);
     placement->rounded = sunder_i_calloc(n, sizeof *placement->rounded);
     placement->interior_cover = model->interior_cover ? sunder_i_calloc(n, sizeof *placement->interior_cover) : NULL;
-    placement->was_rounded = sunder_i_calloc(n, sizeof *placement->was_rounded);
+    placement->reshaped = sunder_i_calloc(n, sizeof *placement->reshaped);
     if (!placement->move || !placement->rounded || (model->interior_cover && !placement->interior_cover) ||
-        !placement->was_rounded)
+        !placement->reshaped)
         return sunder_i_failure_cause(err);
     placement->tree = sunder_i_rtree_lend(&model->tree); /* every feature is at its original position */
     return SUNDER_OK;
@@ -35,7 +35,7 @@ void sunder_i_placement_free(const sunder_i_model *model, sunder_i_placement *pl
     for (size_t f = 0; placement->rounded && f < model->features; f++) sunder_shape_free(placement->rounded[f]);
     for (size_t f = 0; placement->interior_cover && f < model->features; f++)
         sunder_i_interior_cover_free(&placement->interior_cover[f]);
-    sunder_i_free_all(placement->rounded, placement->interior_cover, placement->was_rounded, placement->move);
+    sunder_i_free_all(placement->rounded, placement->interior_cover, placement->reshaped, placement->move);
     sunder_i_rtree_free(&placement->tree);
     memset(placement, 0, sizeof *placement);
 }
@@ -54,7 +54,7 @@ static sunder_status stand_feature(sunder_i_model *model, sunder_i_placement *pl
     if (rounded) {
         /* The shape that will be written is the rounded translate. */
         bool exact;
-        placement->was_rounded[f] = true;
+        placement->reshaped[f] = true;
         const sunder_status status = sunder_shape_translate(shape, t[0], t[1], &placement->rounded[f], &exact, err);
         if (status) return status;
         sunder_shape_box(placement->rounded[f], box);
@@ -213,12 +213,12 @@ typedef struct classification {
 } classification;
 
 /* Is the relation of the pair r the same as in c->before? It is if both members belong to one body, neither was ever
- * rounded, and both or neither changed, since members of a body move together. A pair that is not listed in c->before
+ * reshaped, and both or neither changed, since members of a body move together. A pair that is not listed in c->before
  * was not near. */
 static bool is_as_before(const classification *c, const sunder_i_relation *r)
 {
-    return c->before && c->model->body_of[r->a] == c->model->body_of[r->b] && !c->placement->was_rounded[r->a] &&
-           !c->placement->was_rounded[r->b] && c->changed[r->a] == c->changed[r->b];
+    return c->before && c->model->body_of[r->a] == c->model->body_of[r->b] && !c->placement->reshaped[r->a] &&
+           !c->placement->reshaped[r->b] && c->changed[r->a] == c->changed[r->b];
 }
 
 static sunder_status relate_pairs(void *context, size_t begin, size_t end, sunder_error *err)

@@ -19,5 +19,7 @@ bool sunder_i_is_exact_move(const sunder_i_model *model, uint32_t body, const do
  * plus t. If some move makes every sum exact and is a candidate (move_between.c), it is found; else nearly the
  * shortest. Returns false if none is found. */
 bool sunder_i_move_between(const sunder_shape *before, const sunder_shape *after, double t[2]);
+/* The same for the sets alone, whatever the order of their rings and vertices was; the corners are doubles. */
+bool sunder_i_move_between_sets(const sunder_shape *before, const sunder_shape *after, double t[2]);
 
 #endif

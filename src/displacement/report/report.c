@@ -121,7 +121,8 @@ void sunder_report_free(sunder_report *report)
         sunder_i_proof_free((sunder_proof *)report->clause[k].proof);
     sunder_i_free_all(report->move, report->status, report->block, report->tight, report->bound_pair, report->clause,
                       report->clause_number, report->hiding_class, (void *)report->hiding_trees.tree,
-                      (void *)report->hiding_trees.node, (void *)report->hiding_trees.share);
+                      (void *)report->hiding_trees.node, (void *)report->hiding_trees.share,
+                      report->clause_level, report->level);
     for (size_t k = 0; k < report->bound_trees; k++) sunder_i_bound_tree_free(&report->bound_tree[k]);
     sunder_row_list_free(&report->row_list);
     sunder_i_free_all(report->bound_tree, report->push, report->row_pair, report->row_reach, report->world,
@@ -151,6 +152,7 @@ void sunder_i_count(sunder_conflict_counts *counts, const sunder_conflict *confl
     case SUNDER_CONFLICT_NOT_A_TRANSLATE:
     case SUNDER_CONFLICT_ROW:
     case SUNDER_CONFLICT_NEEDLESS:
+    case SUNDER_CONFLICT_ALTERED:
     case SUNDER_CONFLICT_TIGHT: break; /* no conflicts of a layer */
     }
 }
@@ -205,6 +207,11 @@ const sunder_proof *sunder_report_proof(const sunder_report *report, size_t k)
 void sunder_report_hiding_sized(const sunder_report *report, sunder_hiding_summary *summary, size_t size)
 {
     sunder_i_sized_struct_write(summary, size, &report->hiding, sizeof report->hiding);
+}
+
+size_t sunder_report_level(const sunder_report *report, size_t feature)
+{
+    return report->level ? report->level[feature] : 0;
 }
 
 const sunder_clause *sunder_report_clauses(const sunder_report *report, size_t *n)

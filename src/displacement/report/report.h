@@ -58,6 +58,8 @@ struct sunder_report {
     sunder_hiding_class *hiding_class;
     size_t hiding_classes;
     sunder_hiding_trees hiding_trees;
+    uint32_t *clause_level; /* the levels of the clauses' members */
+    uint32_t *level;        /* [n] in the caller's numbers of features; NULL: none can become smaller */
     /* The following are NULL unless the worlds (the parts of the layer that did not influence each other) are
      * wanted. */
     sunder_world *world;

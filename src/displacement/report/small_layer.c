@@ -182,6 +182,19 @@ static sunder_status set_side_anchors(const sunder_i_model *model, const sunder_
     return status;
 }
 
+/* Gives the movable features the shapes that they have in the whole layer. */
+static sunder_status set_levels(const sunder_i_model *model, const sunder_i_surroundings *a, sunder_layer *layer,
+                                sunder_error *err)
+{
+    const sunder_shape **shape = sunder_i_alloc(a->feature.n, sizeof *shape);
+    if (!shape) return sunder_i_failure_cause(err);
+    for (size_t k = 0; k < a->feature.n; k++)
+        shape[k] = k < a->moving ? sunder_i_thing_shape(model, a->feature.item[k]) : a->as[k].shape;
+    const sunder_status status = sunder_i_layer_lower(layer, shape, err);
+    sunder_i_free((void *)shape);
+    return status;
+}
+
 sunder_status sunder_i_surroundings_layer(const sunder_i_surroundings *surroundings, const sunder_i_solver *solver,
                                           double limit, uint32_t gone, sunder_layer **layer, sunder_error *err)
 {
@@ -198,6 +211,7 @@ sunder_status sunder_i_surroundings_layer(const sunder_i_surroundings *surroundi
     sunder_status status = sunder_layer_new(feature, n, layer, err);
     sunder_i_free(feature);
     if (!status) status = set_side_anchors(&solver->model, a, *layer, err);
+    if (!status && solver->layer.lowered) status = set_levels(&solver->model, a, *layer, err);
     return status ? status : set_barriers(solver, a, gone, *layer, err);
 }
 

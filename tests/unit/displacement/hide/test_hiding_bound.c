@@ -59,8 +59,8 @@ static void draw_clauses(uint64_t *stream, size_t n, sunder_i_clauses *clauses)
         bool added;
         const size_t drawn = 1 + below(stream, 4);
         for (size_t m = 0; m < drawn; m++) member[m] = (uint32_t)below(stream, n);
-        assert_true(
-            sunder_i_clauses_add(clauses, member, sunder_i_set_make(member, drawn), 0, below(stream, 4) > 0, &added));
+        assert_true(sunder_i_clauses_add(clauses, member, (const uint32_t[4]){0}, sunder_i_set_make(member, drawn), 0,
+                                         below(stream, 4) > 0, &added));
     }
 }
 
@@ -68,12 +68,13 @@ static void draw_clauses(uint64_t *stream, size_t n, sunder_i_clauses *clauses)
 static int compare_bound(const sunder_i_clauses *clauses, const sunder_hiding_cost *cost, size_t n, uint32_t choice,
                          size_t effort)
 {
-    bool best[MOST];
+    const sunder_layer layer = {.n = n, .hiding = (sunder_hiding_cost *)cost};
+    uint32_t best[MOST];
     sunder_error err;
     sunder_i_hiding_bound bound = {0};
     int64_t proved[CLASSES] = {0}, least[CLASSES];
     for (size_t f = 0; f < n; f++) best[f] = choice >> f & 1;
-    assert_int_equal(sunder_i_hiding_bound_find(clauses, cost, n, best, effort, &bound, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_hiding_bound_find(clauses, &layer, best, effort, &bound, &err), SUNDER_OK);
     for (size_t t = 0; t < bound.trees; t++)
         for (size_t k = bound.tree[t].bound; k < bound.tree[t].bound + bound.tree[t].bounds; k++) {
             assert_true(bound.share[k].weight >= 0);

@@ -1,5 +1,6 @@
-/* Features that are left out of a layout. Blocks, limits, inclusions and rows are those of the whole layer, so that
- * what has a solution keeps it when more features are left out. */
+/* Features that are left out of a layout, or that have smaller shapes in it. Blocks, limits, anchors, inclusions and
+ * rows are those of the whole layer with the shapes as given, so that what has a solution keeps it when more features
+ * are left out or become smaller. */
 #include "displacement/layer/barrier_pairs.h"
 #include "displacement/layer/placement.h"
 #include "displacement/layer/relaxation.h"
@@ -37,6 +38,40 @@ static void forget_inclusions(sunder_i_model *model)
     model->inclusions = n;
 }
 
+/* Is the feature present with a shape other than the given one? */
+static bool is_lowered(const sunder_i_model *model, size_t f)
+{
+    return model->present[f] && sunder_i_thing_shape(model, f) != sunder_i_given_shape(model, f);
+}
+
+/* Finds the relations of the features that have other shapes than before. */
+static sunder_status relate_lowered(const sunder_i_model *model, sunder_i_placement *placement,
+                                    sunder_i_relations *relations, sunder_error *err)
+{
+    sunder_i_changes lowered;
+    sunder_status status = sunder_i_changes_init(&lowered, model->things) ? SUNDER_OK : sunder_i_failure_cause(err);
+    for (uint32_t f = 0; f < model->features && !status; f++)
+        if (is_lowered(model, f)) {
+            placement->reshaped[f] = true;
+            sunder_i_changes_add(&lowered, f);
+        }
+    if (!status && (lowered.failed || !sunder_i_changes_sort(&lowered))) status = sunder_i_failure_cause(err);
+    if (!status) status = sunder_i_placement_relate_again(model, placement, &lowered, NULL, relations, err);
+    sunder_i_changes_free(&lowered);
+    return status;
+}
+
+static sunder_status cover_lowered(const sunder_i_model *model, sunder_error *err)
+{
+    sunder_status status = SUNDER_OK;
+    for (size_t f = 0; f < model->features && model->interior_cover && !status; f++) {
+        if (!is_lowered(model, f)) continue;
+        sunder_i_interior_cover_free(&model->interior_cover[f]);
+        status = sunder_i_interior_cover_make(sunder_i_thing_shape(model, f), &model->interior_cover[f], err);
+    }
+    return status;
+}
+
 /* A body without visible members does not move. */
 static void weigh_bodies(sunder_i_model *model)
 {
@@ -55,14 +90,16 @@ static void weigh_bodies(sunder_i_model *model)
     }
 }
 
-sunder_status sunder_i_placement_hide(sunder_i_model *model, sunder_i_placement *placement,
-                                      sunder_i_relations *relations, const bool *hidden, sunder_error *err)
+sunder_status sunder_i_placement_lower(sunder_i_model *model, sunder_i_placement *placement,
+                                       sunder_i_relations *relations, const bool *hidden, sunder_error *err)
 {
-    for (size_t f = 0; f < model->features; f++) model->present[f] = model->present[f] && !hidden[f];
+    for (size_t f = 0; f < model->features; f++) model->present[f] = model->present[f] && !(hidden && hidden[f]);
     sunder_i_placement_free(model, placement);
     sunder_status status = rebuild_tree(model, err);
+    if (!status) status = cover_lowered(model, err);
     if (!status) status = sunder_i_placement_init(model, placement, err);
     forget_relations(model, relations);
+    if (!status && model->layer->lowered) status = relate_lowered(model, placement, relations, err);
     forget_inclusions(model);
     weigh_bodies(model);
     return status;

@@ -1,0 +1,199 @@
+/* Features cut back at barriers. */
+#include "displacement/layer/barrier_parts.h"
+#include "displacement/layer/model.h"
+#include "displacement/levels/tuning.h"
+
+#include "base/extremes.h"
+#include "base/parallel.h"
+#include "base/watch.h"
+#include "morphology/morphology.h"
+#include "separation/separation.h"
+#include "shape/difference.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Zones are larger than the required distance by MARGIN of the largest coordinate, some hundred units in the last place,
+ * so that rounding does not bring corners too near. */
+#define MARGIN 0x1p-45
+
+typedef struct trimmer {
+    const sunder_layer *layer;
+    sunder_trimming how;
+    sunder_i_barriers barriers;
+    uint32_t *barrier_of; /* [pieces] the barrier of each piece */
+    sunder_i_rtree tree;  /* over the pieces' boxes */
+    sunder_shape *disc;   /* around the disc of the least width; NULL: there is none */
+    double round[2 * ROUND_CORNERS]; /* the corners of a regular polygon around the unit disc */
+    sunder_shape **out;
+} trimmer;
+
+/* ---- Zones ------------------------------------------------------------------------------------------------------- */
+
+/* Scratch of one thread. */
+typedef struct zones {
+    sunder_i_cuts cuts;
+    sunder_i_list near;
+    double *point;
+    size_t room;
+} zones;
+
+static void corner_of(const sunder_i_piece_of *piece, uint32_t k, double xy[2])
+{
+    const double *at = piece->xy + 2 * (size_t)k;
+    if (piece->shape) {
+        const uint32_t first = piece->piece ? piece->shape->piece_end[piece->piece - 1] : 0;
+        at = piece->shape->xy + 2 * (size_t)sunder_i_piece_vertices(piece->shape)[first + k];
+    }
+    xy[0] = at[0];
+    xy[1] = at[1];
+}
+
+/* Adds the zone of a piece to the cuts: its sum with the polygon around the disc of this radius. Returns false if memory
+ * is out. */
+static bool add_zone(const trimmer *t, zones *z, const sunder_i_piece_of *piece, double radius)
+{
+    const uint32_t corners = sunder_i_piece_corners(piece);
+    const size_t points = (size_t)corners * ROUND_CORNERS;
+    sunder_i_cuts *cuts = &z->cuts;
+    if (!sunder_i_reserve(&z->point, &z->room, 2 * points, sizeof *z->point) ||
+        !sunder_i_reserve(&cuts->xy, &cuts->room, 2 * (cuts->corners + points + 1), sizeof *cuts->xy) ||
+        !sunder_i_reserve(&cuts->end, &cuts->end_room, cuts->n + 1, sizeof *cuts->end))
+        return false;
+    for (uint32_t k = 0; k < corners; k++) {
+        double at[2];
+        corner_of(piece, k, at);
+        for (size_t c = 0; c < 2 * ROUND_CORNERS; c++)
+            z->point[2 * (size_t)k * ROUND_CORNERS + c] = at[c & 1] + radius * t->round[c];
+    }
+    cuts->corners += sunder_i_convex_hull(z->point, points, cuts->xy + 2 * cuts->corners);
+    cuts->end[cuts->n++] = cuts->corners;
+    return true;
+}
+
+/* Lists the zones that may reach a box. Returns false if memory is out. */
+static bool list_zones(const trimmer *t, zones *z, const double box[4])
+{
+    double about[4], own[4], most = 0;
+    for (int c = 0; c < 4; c++) most = sunder_i_max(most, fabs(box[c]));
+    z->cuts.n = z->cuts.corners = z->near.n = 0;
+    sunder_i_box_grow(box, t->barriers.farthest + most * MARGIN, about);
+    if (!sunder_i_rtree_query(&t->tree, about, &z->near)) return false;
+    if (z->near.n) qsort(z->near.item, z->near.n, sizeof *z->near.item, sunder_i_by_number);
+    bool ok = true;
+    for (size_t k = 0; k < z->near.n && ok; k++) {
+        const uint32_t piece = z->near.item[k];
+        const double radius = sunder_i_required_above(&t->barriers, t->barrier_of[piece]) + most * MARGIN;
+        sunder_i_piece_box(&t->barriers.piece[piece], own);
+        sunder_i_box_grow(own, radius, own);
+        if (sunder_i_box_meet(own, box)) ok = add_zone(t, z, &t->barriers.piece[piece], radius);
+    }
+    return ok;
+}
+
+/* ---- Features ---------------------------------------------------------------------------------------------------- */
+
+/* Does the trimmed shape meet the conditions? */
+static sunder_status may_stay(const trimmer *t, const sunder_shape *shape, const sunder_shape *trimmed, bool *may,
+                              sunder_error *err)
+{
+    const double area = sunder_shape_area(trimmed), whole = sunder_shape_area(shape);
+    *may = area < whole && area >= t->how.keep * whole;
+    sunder_status status = SUNDER_OK;
+    if (*may) status = sunder_i_contained(trimmed, NULL, shape, NULL, may, err);
+    if (!status && *may && t->disc) status = sunder_i_fits_in_both(trimmed, NULL, trimmed, NULL, t->disc, may, err);
+    return status;
+}
+
+static sunder_status trim_feature(const trimmer *t, zones *z, size_t f, sunder_error *err)
+{
+    const sunder_shape *shape = t->layer->shape[f];
+    sunder_shape *trimmed = NULL;
+    double box[4];
+    bool may = false;
+    if (!shape || sunder_shape_is_empty(shape) || shape->rational || sunder_i_demands(t->layer, f)->ignored)
+        return SUNDER_OK;
+    sunder_shape_box(shape, box);
+    if (!list_zones(t, z, box)) return sunder_i_failure_cause(err);
+    if (z->cuts.n == 0) return SUNDER_OK;
+    sunder_status status = sunder_i_shape_subtract(shape, &z->cuts, &trimmed, err);
+    if (!status && trimmed) status = may_stay(t, shape, trimmed, &may, err);
+    if (may) t->out[f] = trimmed;
+    if (!may) sunder_shape_free(trimmed);
+    return status;
+}
+
+static sunder_status trim_some(void *context, size_t begin, size_t end, sunder_error *err)
+{
+    const trimmer *t = context;
+    zones z = {0};
+    sunder_status status = SUNDER_OK;
+    for (size_t f = begin; f < end && !status; f++) {
+        status = trim_feature(t, &z, f, err);
+        if (!status && !sunder_i_step()) status = sunder_i_failure_cause(err);
+    }
+    sunder_i_free_all(z.cuts.xy, z.cuts.end, z.near.item, z.point);
+    return status;
+}
+
+/* ---- The layer --------------------------------------------------------------------------------------------------- */
+
+/* Builds the tree over the pieces of all barriers. Returns false if memory is out. */
+static sunder_status index_pieces(trimmer *t, sunder_error *err)
+{
+    const sunder_i_barriers *b = &t->barriers;
+    const size_t n = b->parts ? b->piece_end[b->parts - 1] : 0;
+    double *box = sunder_i_alloc(4 * n, sizeof *box);
+    t->barrier_of = sunder_i_alloc(n, sizeof *t->barrier_of);
+    if (!box || !t->barrier_of) {
+        sunder_i_free(box);
+        return sunder_i_failure_cause(err);
+    }
+    for (uint32_t part = 0, k = 0; part < b->parts; part++)
+        for (; k < b->piece_end[part]; k++) {
+            sunder_i_piece_box(&b->piece[k], box + 4 * (size_t)k);
+            t->barrier_of[k] = b->barrier[part];
+        }
+    const sunder_status status = sunder_i_rtree_build(box, NULL, n, &t->tree, err);
+    sunder_i_free(box);
+    return status;
+}
+
+static sunder_status prepare(trimmer *t, const sunder_i_rules *rules, sunder_error *err)
+{
+    const double pi = acos(-1), circumradius = 1 / cos(pi / ROUND_CORNERS);
+    for (size_t k = 0; k < ROUND_CORNERS; k++) {
+        const double angle = (2 * (double)k + 1) * pi / ROUND_CORNERS;
+        t->round[2 * k] = circumradius * cos(angle);
+        t->round[2 * k + 1] = circumradius * sin(angle);
+    }
+    sunder_status status = sunder_i_barriers_make(t->layer, rules->gap, rules->gap, &t->barriers, err);
+    if (!status) status = index_pieces(t, err);
+    if (!status && t->how.width > 0)
+        status = sunder_shape_disc(t->how.width / 2, ROUND_CORNERS, false, &t->disc, err);
+    return status;
+}
+
+sunder_status sunder_layer_trim(const sunder_layer *layer, const sunder_layer_options *options,
+                                const sunder_trimming *trimming, sunder_shape **shape, sunder_error *err)
+{
+    trimmer t = {.layer = layer, .how = *trimming, .out = shape};
+    if (!(trimming->keep >= 0 && trimming->keep <= 1) || !(trimming->width >= 0 && isfinite(trimming->width)))
+        return sunder_i_fail(err, SUNDER_EARG, "the share to be kept, %g, or the least width, %g, is out of range",
+                             trimming->keep, trimming->width);
+    sunder_i_rules rules;
+    for (size_t f = 0; f < layer->n; f++) shape[f] = NULL;
+    sunder_status status = sunder_i_rules_of(options, &rules, err);
+    if (!status) status = prepare(&t, &rules, err);
+    if (!status)
+        status = sunder_i_parallel(rules.threads, layer->n, SUNDER_I_GRAIN_SHAPES, trim_some, &t, err);
+    for (size_t f = 0; f < layer->n && status; f++) {
+        sunder_shape_free(shape[f]);
+        shape[f] = NULL;
+    }
+    sunder_i_barriers_free(&t.barriers);
+    sunder_i_rtree_free(&t.tree);
+    sunder_shape_free(t.disc);
+    sunder_i_free(t.barrier_of);
+    return status;
+}
