@@ -7,7 +7,7 @@
 
 /* SCREEN_WIDTH: lists of names are wrapped before this column. HELP_COLUMN: the
  * description of an option begins there, or after the option if that is longer. */
-enum { SCREEN_WIDTH = 112, HELP_COLUMN = 37 };
+enum { SCREEN_WIDTH = 118, HELP_COLUMN = 37 };
 
 static const char *const group_titles[GIS_N_GROUPS] = {
     [GIS_GROUP_OWN] = "Options [default]:",
@@ -52,22 +52,38 @@ static void print_own(unsigned command)
     }
 }
 
+/* The length of the options of a group on one line. */
+static size_t packed_length(unsigned command, gis_option_group group)
+{
+    size_t length = 0;
+    for (int i = 0; i < OPT_N; i++) {
+        const gis_option *option = &gis_option_table[i];
+        char name[256];
+        if (option->group == group && (option->commands & command))
+            length += describe_option(option, true, name, sizeof name) + (length ? 2 : 0);
+    }
+    return length;
+}
+
+/* Prints the options of a group below its title, or behind it if one line has room for all. */
 static void print_packed(unsigned command, gis_option_group group)
 {
+    const bool fits = strlen(group_titles[group]) + 1 + packed_length(command, group) <= (size_t)SCREEN_WIDTH;
     size_t column = 0;
+    printf("%s%c", group_titles[group], fits ? ' ' : '\n');
     for (int i = 0; i < OPT_N; i++) {
         const gis_option *option = &gis_option_table[i];
         if (option->group != group || !(option->commands & command)) continue;
         char name[256];
         size_t length = describe_option(option, true, name, sizeof name);
-        if (column && column + 2 + length > (size_t)SCREEN_WIDTH) {
+        if (column && !fits && column + 2 + length > (size_t)SCREEN_WIDTH) {
             printf(",\n");
             column = 0;
         } else if (column) {
             printf(", ");
             column += 2;
         }
-        if (!column) column = (size_t)printf("  ");
+        if (!column && !fits) column = (size_t)printf("  ");
         printf("%s", name);
         column += length;
     }
@@ -88,11 +104,12 @@ void gis_help_command(const gis_command *command)
     printf("Usage: sunder %s [options] %s\n%s.\n", command->name, command->operands, command->summary);
     for (int group = 0; group < GIS_GROUP_HIDDEN; group++) {
         if (group == GIS_GROUP_IDENTITY || !has_any(command->bit, group)) continue;
-        printf("%s\n", group_titles[group]);
-        if (group == GIS_GROUP_OWN)
+        if (group == GIS_GROUP_OWN) {
+            printf("%s\n", group_titles[group]);
             print_own(command->bit);
-        else
+        } else {
             print_packed(command->bit, (gis_option_group)group);
+        }
     }
     if (command->bit & GIS_SHAPES)
         printf("P, Q: WKT (MULTI)POLYGON, @FILE or @- that holds it, disc:R[:N], inside-disc:R[:N], square:SIDE,\n"

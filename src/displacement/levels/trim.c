@@ -1,7 +1,6 @@
 /* Features cut back at barriers. */
 #include "displacement/layer/barrier_parts.h"
 #include "displacement/layer/model.h"
-#include "displacement/levels/tuning.h"
 
 #include "base/extremes.h"
 #include "base/parallel.h"
@@ -16,6 +15,10 @@
 /* Zones are larger than the required distance by MARGIN of the largest coordinate, some hundred units in the last place,
  * so that rounding does not bring corners too near. */
 #define MARGIN 0x1p-45
+
+/* The disc of the required distance is replaced by a regular polygon around it. The excess at a corner is
+ * 1 / cos(pi / ROUND_CORNERS) - 1 of the distance: half a per cent. */
+enum { ROUND_CORNERS = 32 };
 
 typedef struct trimmer {
     const sunder_layer *layer;
