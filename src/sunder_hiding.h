@@ -24,9 +24,9 @@ typedef struct sunder_hiding_cost {
  *
  * Then each conflict that remains is proved, or assumed if no proof is found, to be due to a set of features and
  * barriers that cannot all be kept as they are: a clause. The best choice with a hidden or smaller feature in each
- * clause is taken, the layer is laid out with it, and so on, until no conflict remains for which a feature may be hidden
- * or become smaller. Hidden features do not move, and have the status SUNDER_FEATURE_HIDDEN. Blocks, limits, anchors,
- * rows, and what lies in what are those of all features with the shapes as given.
+ * clause is taken, the layer is laid out with it, and so on, until no conflict remains for which a feature may be
+ * hidden or become smaller. Hidden features do not move, and have the status SUNDER_FEATURE_HIDDEN. Blocks, limits,
+ * anchors, rows, and what lies in what are those of all features with the shapes as given.
  *
  * Fails with SUNDER_ENOMEM, and with SUNDER_EARG for a weight out of its range. */
 SUNDER_EXPERIMENTAL sunder_status sunder_layer_set_hiding(sunder_layer *layer, const sunder_hiding_cost *cost,
@@ -38,9 +38,9 @@ typedef struct sunder_level {
     int64_t cost;              /* from 0 to SUNDER_GREATEST_HIDING_WEIGHT, and not less than that of the level before */
 } sunder_level;
 
-/* Allows sunder_layer_separate() to give features smaller shapes. level: those of all features, feature by feature, from
- * the largest on; end: [n] the index past the last one of each feature. Both are copied. end NULL: no feature has any,
- * which is the default. Of choices that hide the same weights the one with the least sum of costs is the best.
+/* Allows sunder_layer_separate() to give features smaller shapes. level: those of all features, feature by feature,
+ * from the largest on; end: [n] the index past the last one of each feature. Both are copied. end NULL: no feature has
+ * any, which is the default. Of choices that hide the same weights the one with the least sum of costs is the best.
  *
  * Fails with SUNDER_ENOMEM, and with SUNDER_EARG if a shape does not lie in the one before it, or a cost is out of its
  * range. */
@@ -71,8 +71,8 @@ typedef struct sunder_hiding_summary {
     size_t components_best; /* of them, those in which what is hidden is proved to be the best */
     size_t rounds;          /* layouts computed */
     size_t smaller;         /* the number of features with a smaller shape */
-    int64_t smaller_cost;   /* the sum of the costs of their levels; and a lower bound of it for any choice that hides */
-    int64_t smaller_least;  /* the same features */
+    int64_t smaller_cost;   /* the sum of the costs of their levels */
+    int64_t smaller_least;  /* a lower bound of it for any choice that hides the same features */
 } sunder_hiding_summary;
 /* Fills in *summary; zeros if the layer had no hiding costs. */
 SUNDER_EXPERIMENTAL void sunder_report_hiding_sized(const sunder_report *report, sunder_hiding_summary *summary,
@@ -99,8 +99,8 @@ SUNDER_EXPERIMENTAL size_t sunder_report_level(const sunder_report *report, size
 
 /* A set of features of which one needs a greater level, and the conflict that it was made of. */
 typedef struct sunder_clause {
-    const size_t *member; /* [members] the features that may be hidden or become smaller, ascending */
-    const size_t *thing;  /* [things] all features and barriers of the conflict or its proof, ascending; barrier k is
+    const size_t *member;  /* [members] the features that may be hidden or become smaller, ascending */
+    const size_t *thing;   /* [things] all features and barriers of the conflict or its proof, ascending; barrier k is
                            * the number of features + k */
     const uint32_t *level; /* [members] the levels that they cannot all keep */
     size_t members, things;

@@ -176,10 +176,8 @@ static bool resolve_room(const gis_options *options, gis_layer_rules *out, gis_e
                                   gis_option_table[not_with[i]].names);
     if (options->given[OPT_TRIM] && !options->given[OPT_BARRIER])
         return gis_fail_usage(error, "--trim: features are cut back at barriers; give --barrier");
-    if (out->trim_keep > 1)
-        return gis_fail_usage(error, "--trim-keep %g: a share is at most 1", out->trim_keep);
-    if (options->given[OPT_HIDE_WEIGHT] &&
-        !resolve_choice(options, OPT_HIDE_WEIGHT, weighting_word, &weighting, error))
+    if (out->trim_keep > 1) return gis_fail_usage(error, "--trim-keep %g: a share is at most 1", out->trim_keep);
+    if (options->given[OPT_HIDE_WEIGHT] && !resolve_choice(options, OPT_HIDE_WEIGHT, weighting_word, &weighting, error))
         return false;
     out->hide_weighting = (gis_weighting)weighting;
     return true;
@@ -284,8 +282,9 @@ void gis_resolve_original(const gis_options *options, const gis_layer_input_requ
  * in a way that cannot be repeated on the original layer. */
 static bool check_before(const gis_options *options, gis_error *error)
 {
-    static const gis_option_id of_moves[] = {OPT_MAX_SHIFT, OPT_MAX_SHIFT_FIELD, OPT_FIXED_WHERE, OPT_ALLOW_JUMPS,
-                                             OPT_ROWS,      OPT_TRIM},
+    static const gis_option_id of_moves[] = {OPT_MAX_SHIFT,   OPT_MAX_SHIFT_FIELD,
+                                             OPT_FIXED_WHERE, OPT_ALLOW_JUMPS,
+                                             OPT_ROWS,        OPT_TRIM},
                                of_results[] = {OPT_SQL, OPT_BBOX};
     bool before = options->given[OPT_BEFORE];
     if (options->command->bit != GIS_CHECK) return true;

@@ -289,9 +289,8 @@ bool gis_layer_input_read(const gis_layer_input_request *request, gis_layer_inpu
     gis_layer_warn_of_crs(out);
     gis_layer_warn_of_others(out, gis_source_content_count(out->source, GIS_POINTS) > 0);
     return gis_layer_marks(out, error) && gis_layer_mark_hidden(out, error) && gis_layer_blocks(out, error) &&
-           gis_layer_weights(out, error) &&
-           gis_layer_limits(out, error) && gis_layer_rows(out, error) && read_barriers(out, error) &&
-           make_layer(out, error);
+           gis_layer_weights(out, error) && gis_layer_limits(out, error) && gis_layer_rows(out, error) &&
+           read_barriers(out, error) && make_layer(out, error);
 }
 
 void gis_layer_forget_demands(gis_layer_input *input)

@@ -48,7 +48,7 @@ typedef struct gis_layer_input {
     double min_size;         /* likewise; 0 if they have none */
     double tolerance;        /* in units of the layer; negative: the default */
     sunder_shape **shape;    /* [n] NULL: the feature cannot conflict */
-    sunder_shape **smaller;  /* [n] the shape that a feature may have instead, NULL for none; NULL: --trim is not given */
+    sunder_shape **smaller;  /* [n] the shape that a feature may have instead, NULL for none; NULL without --trim */
     sunder_feature *feature; /* [n] */
     gis_barriers barriers;
     double barrier_reach; /* barriers are known within this distance of each feature */

@@ -286,12 +286,8 @@ bool gis_moves_row(const gis_moves *moves, size_t k, gis_conflict_texts *scratch
 {
     size_t n;
     const sunder_conflict *conflicts = sunder_report_conflicts(moves->report, &n);
-    sunder_conflict row = {.b = SIZE_MAX,
-                           .missing = NAN,
-                           .need_shift = NAN,
-                           .need_gap = NAN,
-                           .need_gone = SIZE_MAX,
-                           .need_gap_most = NAN};
+    sunder_conflict row = {
+        .b = SIZE_MAX, .missing = NAN, .need_shift = NAN, .need_gap = NAN, .need_gone = SIZE_MAX, .need_gap_most = NAN};
     const bool lost = k >= n;
     if (lost)
         row.a = moves->lost[k - n];

@@ -19,14 +19,10 @@ gis_value gis_block_as_value(bool fids_unique, int64_t first, GIntBig fid)
 
 bool gis_main_begin(gis_sink *sink, bool hide, bool smaller, gis_sink_layer **layer, gis_error *error)
 {
-    static const gis_field fields[] = {{"sunder_dx", OFTReal, 0},
-                                       {"sunder_dy", OFTReal, 0},
-                                       {"sunder_len", OFTReal, 0},
-                                       {"sunder_st", OFTString, 7},
-                                       {"sunder_blk", OFTInteger64, 0},
-                                       {"sunder_inv", OFTInteger, 0},
-                                       {"sunder_lvl", OFTInteger, 0},
-                                       {"sunder_cut", OFTReal, 0}};
+    static const gis_field fields[] = {{"sunder_dx", OFTReal, 0},       {"sunder_dy", OFTReal, 0},
+                                       {"sunder_len", OFTReal, 0},      {"sunder_st", OFTString, 7},
+                                       {"sunder_blk", OFTInteger64, 0}, {"sunder_inv", OFTInteger, 0},
+                                       {"sunder_lvl", OFTInteger, 0},   {"sunder_cut", OFTReal, 0}};
     const size_t columns = sizeof fields / sizeof *fields;
     const gis_sink_layer_request request = {.suffix = "",
                                             .like_source = true,

@@ -75,13 +75,18 @@ static void draw_link(const comparison *c, size_t a, const double s[2], sunder_c
     for (int k = 0; k < 2; k++) out->to[k] = out->from[k] + (c->move[2 * a + (size_t)k] - s[k]);
 }
 
+/* Is the feature a translate? Its smaller shape is compared as a set, since its vertices were never given. */
+static bool is_move(const sunder_shape *was, const sunder_shape *is, bool smaller, double t[2])
+{
+    return smaller ? sunder_i_move_between_sets(was, is, t) : sunder_i_move_between(was, is, t);
+}
+
 static sunder_status check_feature(comparison *c, uint32_t f, sunder_error *err)
 {
     const sunder_shape *given = c->before->shape[f], *was = c->was[f], *is = c->after->shape[f];
     const double none[2] = {0, 0}, *t = c->move + 2 * (size_t)f;
     const bool there = was && !sunder_shape_is_empty(was), still = is && !sunder_shape_is_empty(is);
-    c->translated[f] = there == still && (!there || (was == given ? sunder_i_move_between(was, is, c->move + 2 * f)
-                                                                  : sunder_i_move_between_sets(was, is, c->move + 2 * f)));
+    c->translated[f] = there == still && (!there || is_move(was, is, was != given, c->move + 2 * (size_t)f));
     /* If the geometry was repaired on input, the shape as given is not the one written; the move is then not known. */
     if (!c->translated[f] && there && still && sunder_shape_repaired(was)) return SUNDER_OK;
     if (!c->translated[f])

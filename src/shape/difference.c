@@ -114,8 +114,8 @@ static sunder_status make_polygon(const difference *d, uint32_t polygon, sunder_
     if (!end) return sunder_i_failure_cause(err);
     for (uint32_t k = 0; k < rings; k++) end[k] = set->ring_end[first + k] - corner;
     sunder_error invalid;
-    const sunder_status status = sunder_shape_from_rings(d->xy + 2 * (size_t)corner, end, &poly_end, 1,
-                                                         SUNDER_VALIDITY_STRICT, out, &invalid);
+    const sunder_status status =
+        sunder_shape_from_rings(d->xy + 2 * (size_t)corner, end, &poly_end, 1, SUNDER_VALIDITY_STRICT, out, &invalid);
     sunder_i_free(end);
     if (!status || status == SUNDER_EINVALID) return SUNDER_OK;
     return sunder_i_failure_cause(err);

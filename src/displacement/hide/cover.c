@@ -2,9 +2,9 @@
  *
  * Costs are vectors, compared lexicographically: one number for each class that occurs in the component, the most
  * important one first, and a last one for the features that become smaller. Such vectors are an ordered group, so that
- * weak duality holds for them as for numbers: clauses get values y >= 0 such that for no feature and no level the values
- * of the clauses that it satisfies with this level exceed the cost of the level; then each choice costs at least the
- * sum of the values. The values are found greedily, clause by clause (bound_of()).
+ * weak duality holds for them as for numbers. Clauses get values y >= 0: for no feature and no level the values of the
+ * clauses that it satisfies with this level exceed the cost of the level. Then each choice costs at least the sum of
+ * the values. They are found greedily, clause by clause (bound_of()).
  *
  * At each node a feature's level is known to be in a range low .. high. A node branches on the feature that is in most
  * clauses that are not satisfied yet: it has the least level that satisfies one of them, or a greater one; or a lesser

@@ -16,8 +16,8 @@ typedef struct sunder_i_cover_result {
 
 /* Which clauses count, and what may be chosen. */
 typedef enum sunder_i_cover_demand {
-    SUNDER_I_COVER_ALL,     /* all clauses */
-    SUNDER_I_COVER_PROVED,  /* the proved ones */
+    SUNDER_I_COVER_ALL,      /* all clauses */
+    SUNDER_I_COVER_PROVED,   /* the proved ones */
     SUNDER_I_COVER_SHRINKING /* the proved ones without a member that is hidden in result->level; no other is hidden */
 } sunder_i_cover_demand;
 

@@ -8,12 +8,12 @@
  * At first everything has its smallest shape. The clauses of these rounds say what has to be hidden whatever becomes
  * smaller; then shapes are as given, and the clauses say what has to become smaller.
  *
- * A proof that some features have no solution together holds whatever else is hidden or becomes smaller, and whatever
- * else becomes larger, since blocks, limits, anchors, inclusions and rows are those of the whole layer with the shapes
- * as given, and since each shape of a feature lies in the one before. So clauses of proofs are never given up, and the
- * cheapest choice for them alone costs no more than any choice that leaves no conflict. A conflict without a proof gives
- * a tentative clause of its two features; no bound rests on it. The present choice does not satisfy the clause of a
- * conflict, so that it is new, and the loop ends. */
+ * A proof that features have no solution together with their levels holds with lesser levels, too, since each shape of
+ * a feature lies in the one before. It holds whatever else is hidden or becomes smaller, since blocks, limits, anchors,
+ * inclusions and rows are those of the whole layer with the shapes as given. So clauses of proofs are never given up,
+ * and the cheapest choice for them alone costs no more than any choice that leaves no conflict. A conflict without a
+ * proof gives a tentative clause of its two features; no bound rests on it. The present choice does not satisfy the
+ * clause of a conflict, so that it is new, and the loop ends. */
 #include "displacement/hide/hiding.h"
 #include "displacement/hide/tuning.h"
 #include "displacement/prove/proofs/feasibility.h"
@@ -264,19 +264,20 @@ static sunder_status choose(sunder_i_hiding *h, sunder_error *err)
     return status;
 }
 
-sunder_status sunder_i_hiding_learn(sunder_i_hiding *h, const sunder_i_model *model, const uint32_t *number,
+sunder_status sunder_i_hiding_learn(sunder_i_hiding *hiding, const sunder_i_model *model, const uint32_t *number,
                                     sunder_report *report, sunder_error *err)
 {
     bool learnt = false;
-    h->rounds += h->step != SUNDER_I_HIDING_PROVE;
-    bool ok = add_proved(h, model, number, report, &learnt);
-    if (ok && !learnt && !h->smallest) ok = add_shrinking(h, model, number, report, &learnt);
-    if (ok && !learnt && h->step == SUNDER_I_HIDING_THOROUGH) ok = add_tentative(h, model, number, report, &learnt);
+    hiding->rounds += hiding->step != SUNDER_I_HIDING_PROVE;
+    bool ok = add_proved(hiding, model, number, report, &learnt);
+    if (ok && !learnt && !hiding->smallest) ok = add_shrinking(hiding, model, number, report, &learnt);
+    if (ok && !learnt && hiding->step == SUNDER_I_HIDING_THOROUGH)
+        ok = add_tentative(hiding, model, number, report, &learnt);
     if (!ok) return sunder_i_failure_cause(err);
-    h->step = learnt ? SUNDER_I_HIDING_QUICK : step_after(h, any_counts(report));
-    if (learnt) return choose(h, err);
-    if (h->step != SUNDER_I_HIDING_END || !h->smallest) return SUNDER_OK;
-    h->smallest = false;
-    h->step = SUNDER_I_HIDING_QUICK;
-    return choose(h, err);
+    hiding->step = learnt ? SUNDER_I_HIDING_QUICK : step_after(hiding, any_counts(report));
+    if (learnt) return choose(hiding, err);
+    if (hiding->step != SUNDER_I_HIDING_END || !hiding->smallest) return SUNDER_OK;
+    hiding->smallest = false;
+    hiding->step = SUNDER_I_HIDING_QUICK;
+    return choose(hiding, err);
 }

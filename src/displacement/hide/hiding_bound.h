@@ -12,8 +12,8 @@ typedef struct sunder_i_hiding_bound {
     size_t trees, tree_room, nodes, node_room, shares, share_room;
 } sunder_i_hiding_bound;
 
-/* Makes a tree for each component of the proved clauses that only hidden features satisfy. best: [features] the levels of a
- * choice that satisfies them; the search for
+/* Makes a tree for each component of the proved clauses that only hidden features satisfy. best: [features] the levels
+ * of a choice that satisfies them; the search for
  * a bound of a component ends when that of this choice is reached, or after `effort` nodes. The caller frees the
  * arrays, also after a failure. */
 sunder_status sunder_i_hiding_bound_find(const sunder_i_clauses *clauses, const sunder_layer *layer,

@@ -1,6 +1,6 @@
 /* What is proved of a choice: no choice without a conflict is better than the bound, which rests on the proved clauses
- * alone. Where the choice hides the same weight of each class as the bound says, it is proved to be the best. With what is
- * hidden, the least cost of other levels for the proved clauses is a bound for that cost. */
+ * alone. Where the choice hides the same weight of each class as the bound says, it is proved to be the best. With
+ * what is hidden, the least cost of other levels for the proved clauses is a bound for that cost. */
 #include "displacement/hide/hiding.h"
 #include "displacement/hide/hiding_bound.h"
 #include "displacement/hide/tuning.h"
@@ -42,8 +42,7 @@ static size_t list_differences(const sunder_i_hiding *h, const uint32_t *root, c
 {
     size_t n = 0;
     for (uint32_t f = 0; f < h->layer->n; f++)
-        if (h->hidden[f])
-            list[n++] = (difference){root[f], h->layer->hiding[f].hierarchy, h->layer->hiding[f].weight};
+        if (h->hidden[f]) list[n++] = (difference){root[f], h->layer->hiding[f].hierarchy, h->layer->hiding[f].weight};
     for (size_t t = 0; t < bound->trees; t++)
         for (size_t k = 0; k < bound->tree[t].bounds; k++) {
             const sunder_hiding_share *of = &bound->share[bound->tree[t].bound + k];
@@ -131,9 +130,17 @@ static bool report_clauses(sunder_i_hiding *h, sunder_report *report)
         for (size_t m = 0; m < from->n + from->others; m++) thing[m] = c->item[from->first + m];
         qsort(thing, from->n + from->others, sizeof *thing, by_size);
         sunder_i_clause_source *source = bsearch(&from->first, h->source, h->sources, sizeof *source, by_first);
-        report->clause[k] =
-            (sunder_clause){number,       thing,     report->clause_level + from->first, from->n, from->n + from->others,
-                            from->proved, source->a, source->b, source->reason, source->crowded, source->proof};
+        report->clause[k] = (sunder_clause){number,
+                                            thing,
+                                            report->clause_level + from->first,
+                                            from->n,
+                                            from->n + from->others,
+                                            from->proved,
+                                            source->a,
+                                            source->b,
+                                            source->reason,
+                                            source->crowded,
+                                            source->proof};
         source->proof = NULL;
         number = thing + from->n + from->others;
     }
@@ -206,9 +213,9 @@ sunder_status sunder_i_hiding_report(sunder_i_hiding *hiding, sunder_report *rep
     sunder_i_hiding_bound bound = {0};
     sunder_status status = best ? SUNDER_OK : sunder_i_failure_cause(err);
     if (!status)
-        status = sunder_i_cover_find(&hiding->clauses, SUNDER_I_COVER_PROVED, hiding->layer, COVER_EFFORT, &result, err);
-    if (!status)
-        status = sunder_i_hiding_bound_find(&hiding->clauses, hiding->layer, best, BOUND_EFFORT, &bound, err);
+        status =
+            sunder_i_cover_find(&hiding->clauses, SUNDER_I_COVER_PROVED, hiding->layer, COVER_EFFORT, &result, err);
+    if (!status) status = sunder_i_hiding_bound_find(&hiding->clauses, hiding->layer, best, BOUND_EFFORT, &bound, err);
     if (!status && !(compare_with_bound(hiding, &bound, report) && report_clauses(hiding, report)))
         status = sunder_i_failure_cause(err);
     if (!status) status = report_smaller(hiding, best, &report->hiding, err);

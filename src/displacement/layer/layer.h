@@ -22,9 +22,9 @@ struct sunder_layer {
     double *side_anchor; /* [2 n] side anchors from the caller, not finite where the rule has to find one; NULL: none
                           * are given */
     int64_t *row;        /* [n] the row of each feature, -1 for none, as the caller gives them; NULL: none are given */
-    sunder_hiding_cost *hiding; /* [n] what it costs to hide each; NULL: none is hidden */
-    sunder_level *level;        /* the smaller shapes that features may have, feature by feature ... */
-    size_t *level_end;          /* [n] ... and the index past the last one of each; NULL: there are none */
+    sunder_hiding_cost *hiding;    /* [n] what it costs to hide each; NULL: none is hidden */
+    sunder_level *level;           /* the smaller shapes that features may have, feature by feature ... */
+    size_t *level_end;             /* [n] ... and the index past the last one of each; NULL: there are none */
     const sunder_shape **at_level; /* [n] the shapes that features have now; NULL: those of shape[] */
     /* A layer in processing order (feature_order.c) stores no features of its own but has the next three; otherwise
      * they are NULL, and `lowered` is false: */

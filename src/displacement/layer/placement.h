@@ -15,7 +15,7 @@ typedef struct sunder_i_placement {
     sunder_i_interior_cover
         *interior_cover; /* [things] the interior covers of these shapes, if there are barriers without area;
                                   * else NULL */
-    bool *reshaped; /* [things] the feature was rounded at some time, or does not have its shape as given */
+    bool *reshaped;      /* [things] the feature was rounded at some time, or does not have its shape as given */
     sunder_i_rtree tree;
 } sunder_i_placement;
 
@@ -43,8 +43,8 @@ sunder_status sunder_i_placement_move(sunder_i_model *model, sunder_i_placement 
 sunder_status sunder_i_placement_move_body(sunder_i_model *model, sunder_i_placement *placement, uint32_t body,
                                            sunder_error *err);
 void sunder_i_placement_free(const sunder_i_model *model, sunder_i_placement *placement);
-/* Leaves features out, hidden[f] says of each whether it is (NULL: none), and takes the shapes of a lowered layer. To be
- * called once, when the bodies are joined, and while everything is at its original position. `relations` are those
+/* Leaves features out, hidden[f] says of each whether it is (NULL: none), and takes the shapes of a lowered layer. To
+ * be called once, when the bodies are joined, and while everything is at its original position. `relations` are those
  * there (lowered_features.c). */
 sunder_status sunder_i_placement_lower(sunder_i_model *model, sunder_i_placement *placement,
                                        sunder_i_relations *relations, const bool *hidden, sunder_error *err);

@@ -12,8 +12,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Zones are larger than the required distance by MARGIN of the largest coordinate, some hundred units in the last place,
- * so that rounding does not bring corners too near. */
+/* Zones are larger than the required distance by MARGIN of the largest coordinate, some hundred units in the last
+ * place, so that rounding does not bring corners too near. */
 #define MARGIN 0x1p-45
 
 /* The disc of the required distance is replaced by a regular polygon around it. The excess at a corner is
@@ -24,9 +24,9 @@ typedef struct trimmer {
     const sunder_layer *layer;
     sunder_trimming how;
     sunder_i_barriers barriers;
-    uint32_t *barrier_of; /* [pieces] the barrier of each piece */
-    sunder_i_rtree tree;  /* over the pieces' boxes */
-    sunder_shape *disc;   /* around the disc of the least width; NULL: there is none */
+    uint32_t *barrier_of;            /* [pieces] the barrier of each piece */
+    sunder_i_rtree tree;             /* over the pieces' boxes */
+    sunder_shape *disc;              /* around the disc of the least width; NULL: there is none */
     double round[2 * ROUND_CORNERS]; /* the corners of a regular polygon around the unit disc */
     sunder_shape **out;
 } trimmer;
@@ -52,8 +52,8 @@ static void corner_of(const sunder_i_piece_of *piece, uint32_t k, double xy[2])
     xy[1] = at[1];
 }
 
-/* Adds the zone of a piece to the cuts: its sum with the polygon around the disc of this radius. Returns false if memory
- * is out. */
+/* Adds the zone of a piece to the cuts: its sum with the polygon around the disc of this radius. Returns false if
+ * memory is out. */
 static bool add_zone(const trimmer *t, zones *z, const sunder_i_piece_of *piece, double radius)
 {
     const uint32_t corners = sunder_i_piece_corners(piece);
@@ -172,8 +172,7 @@ static sunder_status prepare(trimmer *t, const sunder_i_rules *rules, sunder_err
     }
     sunder_status status = sunder_i_barriers_make(t->layer, rules->gap, rules->gap, &t->barriers, err);
     if (!status) status = index_pieces(t, err);
-    if (!status && t->how.width > 0)
-        status = sunder_shape_disc(t->how.width / 2, ROUND_CORNERS, false, &t->disc, err);
+    if (!status && t->how.width > 0) status = sunder_shape_disc(t->how.width / 2, ROUND_CORNERS, false, &t->disc, err);
     return status;
 }
 
@@ -188,8 +187,7 @@ sunder_status sunder_layer_trim(const sunder_layer *layer, const sunder_layer_op
     for (size_t f = 0; f < layer->n; f++) shape[f] = NULL;
     sunder_status status = sunder_i_rules_of(options, &rules, err);
     if (!status) status = prepare(&t, &rules, err);
-    if (!status)
-        status = sunder_i_parallel(rules.threads, layer->n, SUNDER_I_GRAIN_SHAPES, trim_some, &t, err);
+    if (!status) status = sunder_i_parallel(rules.threads, layer->n, SUNDER_I_GRAIN_SHAPES, trim_some, &t, err);
     for (size_t f = 0; f < layer->n && status; f++) {
         sunder_shape_free(shape[f]);
         shape[f] = NULL;
