@@ -51,6 +51,7 @@ SUNDER_EXPERIMENTAL sunder_status sunder_layer_set_levels(sunder_layer *layer, c
 typedef struct sunder_trimming {
     double keep;  /* the least share of its area that a feature keeps, from 0 to 1 */
     double width; /* >= 0; a disc of this diameter lies in what remains */
+    bool crossed; /* also features that a line of a barrier crosses, of which one side remains */
 } sunder_trimming;
 
 /* Cuts features back to what is as far from all barriers as they have to be, of which the largest polygon remains; with

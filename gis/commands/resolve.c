@@ -169,6 +169,7 @@ static bool resolve_room(const gis_options *options, gis_layer_rules *out, gis_e
     out->trim = options->given[OPT_TRIM] && options->command->bit != GIS_CHECK; /* see gis_resolve_original() */
     out->trim_keep = options->given[OPT_TRIM_KEEP] ? options->number[OPT_TRIM_KEEP] : usual_share_kept;
     out->min_size = gis_resolve_length(options, OPT_MIN_SIZE);
+    out->trim_crossed = options->text[OPT_CROSSED] && strcmp(options->text[OPT_CROSSED], "trim") == 0;
     out->rigid_where = options->text[OPT_RIGID_WHERE];
     for (size_t i = 0; (out->hide || out->trim) && i < sizeof not_with / sizeof *not_with; i++)
         if (options->given[not_with[i]])

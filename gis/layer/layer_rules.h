@@ -27,6 +27,7 @@ typedef struct gis_layer_rules {
     bool hide, drop_hidden; /* features may be left out; by the classes in this field, and this weight */
     bool trim; /* features may be cut back at barriers, but keep this share of their area, and a disc of this size */
     double trim_keep;
+    bool trim_crossed; /* also features that a line of a barrier crosses */
     gis_optional_length min_size;
     const char *rigid_where; /* SQL: the shapes of these features never change */
     const char *hierarchy_field;

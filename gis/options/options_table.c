@@ -56,6 +56,8 @@ const gis_option gis_option_table[OPT_N] = {
                       NULL, "diameter of a disc that fits into what became smaller"},
     [OPT_RIGID_WHERE] = {OPT_RIGID_WHERE, "--rigid-where", GIS_TYPE_SQL, GIS_SEPARATE | GIS_CHECK, GIS_GROUP_ROOM,
                          "SQL", NULL, "features whose shapes never change"},
+    [OPT_CROSSED] = {OPT_CROSSED, "--crossed", GIS_TYPE_CHOICE, GIS_SEPARATE | GIS_CHECK, GIS_GROUP_ROOM, "trim|hide",
+                     "hide", "what becomes of a feature that a barrier's line crosses"},
     [OPT_SYMBOL] = {OPT_SYMBOL, "--symbol", GIS_TYPE_SHAPE, GIS_LAYERS, OWN, "SHAPE", NULL,
                     "symbol of each point: WKT, disc:R[:N], square:S ..."},
     [OPT_SYMBOL_FIELD] = {OPT_SYMBOL_FIELD, "--symbol-field", GIS_TYPE_FIELD, GIS_LAYERS, OWN, "FIELD", NULL,

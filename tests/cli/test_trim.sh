@@ -26,9 +26,14 @@ grep -q '^trimmed 2, ' out || fail "the summary: $(cat out)"
 # A share of 0.15 is lost: the house loses 1.5 m of its 10 m.
 case $(value o.gpkg right sunder_cut) in 0.15*) ;; *) fail "the share lost is $(value o.gpkg right sunder_cut)" ;; esac
 
-# With a smaller share the house on the road is cut, too, and nothing is hidden; --trim alone hides nothing, ever.
+# The house that the road crosses is cut only if that is asked for and it keeps enough; then nothing is hidden. --trim
+# alone hides nothing, ever.
 expect 0 separate h.gpkg k.gpkg "${words[@]}" --hide --hide-weight 1 --trim --trim-keep 0.05 --stats k.json
-same "$(jq -c '[.hidden.count, .shrunk.trimmed]' k.json)" '[0,3]' "a smaller share:"
+same "$(jq -c '[.hidden.count, .shrunk.trimmed]' k.json)" '[1,2]' "a smaller share:"
+expect 0 separate h.gpkg k.gpkg "${words[@]}" --hide --hide-weight 1 --trim --trim-keep 0.05 --crossed trim --stats k.json
+same "$(jq -c '[.hidden.count, .shrunk.trimmed]' k.json)" '[0,3]' "the house that the road crosses:"
+expect 0 separate h.gpkg k.gpkg "${words[@]}" --hide --hide-weight 1 --trim --crossed trim --stats k.json
+same "$(jq -c '[.hidden.count, .shrunk.trimmed]' k.json)" '[1,2]' "a house that keeps too little:"
 expect 3 separate h.gpkg alone.gpkg "${words[@]}" --trim --stats alone.json
 same "$(jq -c '[.hidden.count, .shrunk.trimmed]' alone.json)" '[0,2]' "without --hide:"
 expect 0 separate h.gpkg m.gpkg "${words[@]}" --hide --hide-weight 1 --trim --min-size 9 --stats m.json

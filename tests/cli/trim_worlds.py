@@ -116,7 +116,7 @@ def main():
     for name in ("trim_houses", "trim_roads"):
         subprocess.run(["ogr2ogr", "-f", "GPKG", "-a_srs", "EPSG:25833", f"{name}.gpkg", f"{name}.json"], check=True)
     rules = ["--gap", str(GAP), "--max-shift", str(LIMIT), "--barrier", "trim_roads.gpkg,width-field=w", "--trim",
-             "--trim-keep", str(KEEP)]
+             "--trim-keep", str(KEEP), "--crossed", rng.choice(["trim", "hide"])]
     run = [sunder, "separate", "trim_houses.gpkg", "trim_o.gpkg", "--overwrite", "--hide", "--hide-weight", "1", "-q"]
     subprocess.run(run + rules + ["--stats", "trim.json"], check=True)
     stats = json.load(open("trim.json"))

@@ -129,6 +129,9 @@ OPTIONS = (
            "The diameter of a disc that fits into it."),
     Option("--rigid-where", EXPRESSION, LAYERS, "Features whose shapes never change",
            "They are not cut back; they may move, and be left out."),
+    Option("--crossed", CHOICE, LAYERS, "A feature that a barrier's line crosses",
+           "If it has no room: it is cut back to one side, or keeps its shape and may be left out.",
+           1, ("trim", "hide"), ("Is cut back to one side", "Keeps its shape")),
     Option("--hidden-field", NUMERIC_FIELD, ("check",), "Field: features that are left out",
            "Those with a value other than 0 owe nothing; in a result of Sunder: sunder_inv."),
     # ---- Symbols ----
@@ -195,6 +198,7 @@ NOUNS = {
     "--hidden-field": "field of what is left out", "--trim": "checkbox to cut features back",
     "--trim-keep": "least share kept", "--min-size": "least size of what remains",
     "--rigid-where": "expression for features whose shapes never change",
+    "--crossed": "choice for features that a barrier's line crosses",
     "--symbol": "symbol", "--symbol-field": "field of the symbols",
     "--symbol-size-field": "field of the symbols' sizes",
     "--dissolve-field": "field to dissolve by", "--explode": "checkbox for single polygons", "--align": "checkbox to turn the shape",

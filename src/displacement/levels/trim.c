@@ -74,6 +74,25 @@ static bool add_zone(const trimmer *t, zones *z, const sunder_i_piece_of *piece,
     return true;
 }
 
+/* Sets *crossed to whether a line or point of a listed barrier meets the interior of the shape. */
+static sunder_status is_crossed(const trimmer *t, const zones *z, const sunder_shape *shape, bool *crossed,
+                                sunder_error *err)
+{
+    sunder_i_interior_cover cover = {0};
+    sunder_status status = sunder_i_interior_cover_make(shape, &cover, err);
+    *crossed = false;
+    for (size_t k = 0; k < z->near.n && !status && !*crossed; k++) {
+        const sunder_i_piece_of *piece = &t->barriers.piece[z->near.item[k]];
+        sunder_shape *line = NULL;
+        if (sunder_i_piece_has_area(piece)) continue;
+        status = sunder_i_shape_of_pieces(piece, 1, &line, err);
+        if (!status) status = sunder_i_overlap(line, NULL, cover.shape ? cover.shape : shape, NULL, crossed, err);
+        sunder_shape_free(line);
+    }
+    sunder_i_interior_cover_free(&cover);
+    return status;
+}
+
 /* Lists the zones that may reach a box. Returns false if memory is out. */
 static bool list_zones(const trimmer *t, zones *z, const double box[4])
 {
@@ -119,7 +138,10 @@ static sunder_status trim_feature(const trimmer *t, zones *z, size_t f, sunder_e
     sunder_shape_box(shape, box);
     if (!list_zones(t, z, box)) return sunder_i_failure_cause(err);
     if (z->cuts.n == 0) return SUNDER_OK;
-    sunder_status status = sunder_i_shape_subtract(shape, &z->cuts, &trimmed, err);
+    bool crossed = false;
+    sunder_status status = t->how.crossed ? SUNDER_OK : is_crossed(t, z, shape, &crossed, err);
+    if (status || crossed) return status;
+    status = sunder_i_shape_subtract(shape, &z->cuts, &trimmed, err);
     if (!status && trimmed) status = may_stay(t, shape, trimmed, &may, err);
     if (may) t->out[f] = trimmed;
     if (!may) sunder_shape_free(trimmed);
