@@ -51,10 +51,10 @@ SUNDER_EXPERIMENTAL sunder_status sunder_layer_set_levels(sunder_layer *layer, c
 typedef struct sunder_trimming {
     double keep;  /* the least share of its area that a feature keeps, from 0 to 1 */
     double width; /* >= 0; a disc of this diameter lies in what remains */
-    bool crossed; /* also features that a line of a barrier crosses, of which one side remains */
+    bool crossed; /* also features that a line of a barrier crosses: one side remains */
 } sunder_trimming;
 
-/* Cuts features back to what is as far from all barriers as they have to be, of which the largest polygon remains; with
+/* Cuts features back to the largest polygon of what is as far from all barriers as they have to be; with
  * the gap of the options. shape: [n] becomes, for each feature that is cut and meets the conditions, a new shape that
  * lies in it and that the caller frees; NULL for all others. Ignored features, those without a polygon and those with
  * corners that are not doubles are not cut. Fails with SUNDER_ENOMEM or SUNDER_ECANCEL; all shapes are then NULL. */
@@ -98,7 +98,7 @@ SUNDER_EXPERIMENTAL const sunder_hiding_class *sunder_report_hiding_classes(cons
  * smaller shapes if it is hidden. */
 SUNDER_EXPERIMENTAL size_t sunder_report_level(const sunder_report *report, size_t feature);
 
-/* A set of features of which one needs a greater level, and the conflict that it was made of. */
+/* A set of features, one of which needs a greater level, and the conflict that it was made of. */
 typedef struct sunder_clause {
     const size_t *member;  /* [members] the features that may be hidden or become smaller, ascending */
     const size_t *thing;   /* [things] all features and barriers of the conflict or its proof, ascending; barrier k is
