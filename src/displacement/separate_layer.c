@@ -298,6 +298,37 @@ static sunder_status lay_out_again(sunder_i_solver *s, const sunder_layer *layer
     return find_moves(s, layer, options, hidden, report, err);
 }
 
+/* Lays the features out with the present choice, and lists the conflicts. */
+static sunder_status try_choice(sunder_i_solver *s, const sunder_layer *lowered, const sunder_layer_options *options,
+                                sunder_i_hiding *hiding, sunder_report **report, sunder_error *err)
+{
+    sunder_i_hiding_take_levels(hiding);
+    const sunder_status status = lay_out_again(s, lowered, options, hiding->hidden, report, err);
+    return status ? status : find_reasons(s, *report, err);
+}
+
+/* Shows hidden features again that are in no conflict at their places in the last layout, as long as a layout with them
+ * has no more conflicts than the one before. */
+static sunder_status show_fitting(sunder_i_solver *s, const sunder_layer *lowered, const sunder_layer_options *options,
+                                  sunder_i_hiding *hiding, sunder_report **report, sunder_error *err)
+{
+    const size_t n = hiding->layer->n;
+    uint32_t *before = sunder_i_alloc(n, sizeof *before);
+    sunder_status status = before ? SUNDER_OK : sunder_i_failure_cause(err);
+    for (bool any = true; any && !status;) {
+        const size_t conflicts = sunder_i_hiding_conflicts(*report);
+        if (n) memcpy(before, hiding->level, n * sizeof *before);
+        status = sunder_i_hiding_unhide(hiding, &s->model, &s->placement, s->layer.number, &any, err);
+        if (!status && any) status = try_choice(s, lowered, options, hiding, report, err);
+        if (status || sunder_i_hiding_conflicts(*report) <= conflicts) continue;
+        if (n) memcpy(hiding->level, before, n * sizeof *before);
+        status = try_choice(s, lowered, options, hiding, report, err);
+        any = false;
+    }
+    sunder_i_free(before);
+    return status;
+}
+
 /* Lays out the features that are not hidden, and hides more or makes them smaller, until nothing remains for which that
  * is possible. *lowered becomes the layer with the shapes of the last layout, which the solver refers to. */
 static sunder_status lay_out_visible(sunder_i_solver *s, const sunder_layer *layer, const sunder_layer_options *options,
@@ -323,6 +354,7 @@ static sunder_status lay_out_visible(sunder_i_solver *s, const sunder_layer *lay
         if (!status) status = find_reasons(s, *report, err);
         if (!status) status = sunder_i_hiding_learn(hiding, &s->model, s->layer.number, *report, err);
     }
+    if (!status && layer->hiding) status = show_fitting(s, lowered, &thorough, hiding, report, err);
     if (status) return status;
     sunder_i_report_forget_conflicts(*report);
     s->model.rules.drop_proofs = (*report)->stripped = options->drop_proofs;

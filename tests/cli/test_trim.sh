@@ -30,9 +30,9 @@ case $(value o.gpkg right sunder_cut) in 0.15*) ;; *) fail "the share lost is $(
 # alone hides nothing, ever.
 expect 0 separate h.gpkg k.gpkg "${words[@]}" --hide --hide-weight 1 --trim --trim-keep 0.05 --stats k.json
 same "$(jq -c '[.hidden.count, .shrunk.trimmed]' k.json)" '[1,2]' "a smaller share:"
-expect 0 separate h.gpkg k.gpkg "${words[@]}" --hide --hide-weight 1 --trim --trim-keep 0.05 --crossed trim --stats k.json
+expect 0 separate h.gpkg k.gpkg --overwrite "${words[@]}" --hide --hide-weight 1 --trim --trim-keep 0.05 --crossed trim --stats k.json
 same "$(jq -c '[.hidden.count, .shrunk.trimmed]' k.json)" '[0,3]' "the house that the road crosses:"
-expect 0 separate h.gpkg k.gpkg "${words[@]}" --hide --hide-weight 1 --trim --crossed trim --stats k.json
+expect 0 separate h.gpkg k.gpkg --overwrite "${words[@]}" --hide --hide-weight 1 --trim --crossed trim --stats k.json
 same "$(jq -c '[.hidden.count, .shrunk.trimmed]' k.json)" '[1,2]' "a house that keeps too little:"
 expect 3 separate h.gpkg alone.gpkg "${words[@]}" --trim --stats alone.json
 same "$(jq -c '[.hidden.count, .shrunk.trimmed]' alone.json)" '[0,2]' "without --hide:"

@@ -24,7 +24,7 @@
 
 /* Takes the shapes of the present levels. Features that are not hidden get their smallest shapes if all do, or if they
  * were in too many clauses. */
-static void take_levels(sunder_i_hiding *h)
+void sunder_i_hiding_take_levels(sunder_i_hiding *h)
 {
     for (size_t f = 0; f < h->layer->n; f++) {
         size_t n;
@@ -48,7 +48,7 @@ sunder_status sunder_i_hiding_begin(const sunder_layer *layer, sunder_i_hiding *
     }
     const bool ok = hiding->level && hiding->hidden && hiding->times && (hiding->shape || !layer->level_end);
     hiding->smallest = layer->level_end && layer->hiding;
-    if (ok) take_levels(hiding);
+    if (ok) sunder_i_hiding_take_levels(hiding);
     return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
@@ -237,11 +237,11 @@ static bool add_shrinking(sunder_i_hiding *h, const sunder_i_model *model, const
     return ok;
 }
 
-static bool any_counts(const sunder_report *report)
+size_t sunder_i_hiding_conflicts(const sunder_report *report)
 {
-    for (size_t k = 0; k < report->conflicts; k++)
-        if (counts(&report->conflict[k])) return true;
-    return false;
+    size_t n = 0;
+    for (size_t k = 0; k < report->conflicts; k++) n += counts(&report->conflict[k]);
+    return n;
 }
 
 /* What follows a layout from which nothing was learnt. With smallest shapes the conflicts decide what is hidden; the
@@ -260,7 +260,7 @@ static sunder_status choose(sunder_i_hiding *h, sunder_error *err)
     sunder_i_cover_result result = {.level = h->level};
     const sunder_status status =
         sunder_i_cover_find(&h->clauses, SUNDER_I_COVER_ALL, h->layer, COVER_EFFORT, &result, err);
-    take_levels(h);
+    sunder_i_hiding_take_levels(h);
     return status;
 }
 
@@ -274,7 +274,7 @@ sunder_status sunder_i_hiding_learn(sunder_i_hiding *hiding, const sunder_i_mode
     if (ok && !learnt && hiding->step == SUNDER_I_HIDING_THOROUGH)
         ok = add_tentative(hiding, model, number, report, &learnt);
     if (!ok) return sunder_i_failure_cause(err);
-    hiding->step = learnt ? SUNDER_I_HIDING_QUICK : step_after(hiding, any_counts(report));
+    hiding->step = learnt ? SUNDER_I_HIDING_QUICK : step_after(hiding, sunder_i_hiding_conflicts(report) > 0);
     if (learnt) return choose(hiding, err);
     if (hiding->step != SUNDER_I_HIDING_END || !hiding->smallest) return SUNDER_OK;
     hiding->smallest = false;

@@ -47,6 +47,21 @@ void sunder_i_hiding_free(sunder_i_hiding *hiding);
  * report  the proofs that are kept are taken from it */
 sunder_status sunder_i_hiding_learn(sunder_i_hiding *hiding, const sunder_i_model *model, const uint32_t *number,
                                     sunder_report *report, sunder_error *err);
+/* Returns the number of conflicts of a layout that something could be hidden for. */
+size_t sunder_i_hiding_conflicts(const sunder_report *report);
+/* Takes over the levels: what is hidden, and the shapes of all others. */
+void sunder_i_hiding_take_levels(sunder_i_hiding *h);
+
+/* ---- unhide.c ---------------------------------------------------------------------------------------------------- */
+
+/* Sets the level of hidden features to 0 that would be in no conflict with the others, nor with each other, at their
+ * places in the layout; the most important ones first. Sets *any to whether there are such. number: as above. */
+sunder_status sunder_i_hiding_unhide(sunder_i_hiding *hiding, const sunder_i_model *model,
+                                     const sunder_i_placement *placement, const uint32_t *number, bool *any,
+                                     sunder_error *err);
+
+/* ---- hiding_report.c --------------------------------------------------------------------------------------------- */
+
 /* Writes what is hidden or smaller, and what is proved of it, to the report, which receives the proofs of the
  * clauses and the levels. */
 sunder_status sunder_i_hiding_report(sunder_i_hiding *hiding, sunder_report *report, sunder_error *err);
