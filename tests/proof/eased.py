@@ -120,13 +120,18 @@ class Eased:
 
     def pairs(self):
         """The pairs that are named, and neighbours in a row that lack some of its rule with the full gap."""
-        rows = self.problem.rows.of if self.problem.rows and self.problem.has_slack else ()
-        return {**self.members, **{pair: () for pair in map(frozenset, rows) if pair not in self.members and self.has_price(pair)}}
+        found, rows = dict(self.members), self.problem.rows if self.problem.has_slack else None
+        for line in rows.told if rows else ():
+            ends = line["a"], line["b"]
+            if not any(map(self.problem.is_hidden, ends)) and self.has_price(self.pair(*ends)):
+                found.setdefault(self.pair(*ends), ())
+        return found
 
     def ahead(self, pair, u):
         """What the pair, of which the second one moves by u relative to the first one, lacks of that rule."""
         one, other = pair
-        rule = self.problem.has_slack and self.problem.rows and (one, other) in self.problem.rows.of and self.problem.rows.full(one, other)
+        rows = self.problem.rows if self.problem.has_slack else None
+        rule = rows and rows.line(one, other) and rows.full(one, other)
         return rule[1] - rule[0][0] * u[0] - rule[0][1] * u[1] if rule else Fraction(0)
 
     def cost(self, move):

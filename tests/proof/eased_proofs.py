@@ -55,7 +55,8 @@ def with_a_least_gap(rng):
 
 def drawn(rng, effort):
     source, words = rng.choice((houses_and_roads, with_a_least_gap, rows_and_roads, small_world))(rng)
-    return source, words + ["--ease", rng.choice(("30", "5", "200")), "--effort", rng.choice((effort, effort, effort, "0.01", "0"))]
+    words += ["--ease", rng.choice(("30", "5", "200"))]
+    return source, words if "--effort" in words else words + ["--effort", rng.choice((effort, effort, effort, "0.01", "0"))]
 
 
 def run(sunder, source, out, words):

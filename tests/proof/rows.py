@@ -163,10 +163,15 @@ class Rows:
 
     # ---- Their rule, and their springs
 
+    def line(self, one, other):
+        """The line about two bodies; None: they are no neighbours, or the end of one is hidden."""
+        line = self.of.get(tuple(self.problem.blocks.block(body[0]) for body in (one, other)))
+        return line if line and not any(map(self.problem.is_hidden, (line["a"], line["b"]))) else None
+
     def edge(self, one, other):
         """The line about two bodies, and the direction from the first to the second."""
-        line = self.of.get(tuple(self.problem.blocks.block(body[0]) for body in (one, other)))
-        demand(line and not any(map(self.problem.is_hidden, (line["a"], line["b"]))), "no neighbours in a row:", *one, *other)
+        line = self.line(one, other)
+        demand(line, "no neighbours in a row:", *one, *other)
         sign = 1 if line["a"] in one else -1
         return line, tuple(sign * Fraction(v) for v in line["along"])
 
