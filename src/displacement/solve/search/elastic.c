@@ -14,7 +14,9 @@
 
 #include <math.h>
 
-bool sunder_i_search_relax_at_home(sunder_i_search *search, const sunder_i_clash *at_home, size_t n)
+/* Moves all bodies to their original places and relaxes the n pairs that clash there. Returns whether nothing clashes
+ * then; it does not unless memory is out. */
+static bool relax_at_home(sunder_i_search *search, const sunder_i_clash *at_home, size_t n)
 {
     for (uint32_t k = 0; k < search->n; k++) sunder_i_search_send_home(search, k);
     search->program.n = 0;
@@ -108,10 +110,10 @@ static void end_solved(sunder_i_search *s)
 
 bool sunder_i_search_fall_short(sunder_i_search *search, const sunder_i_clash *at_home, size_t n)
 {
-    if (!sunder_i_search_relax_at_home(search, at_home, n)) return false;
+    if (!relax_at_home(search, at_home, n)) return false;
     const bool done = descend_at_prices(search);
     if (done) end_solved(search);
     search->shortfalls = search->creditor.n = 0;
-    if (!done) sunder_i_search_relax_at_home(search, at_home, n);
+    if (!done) relax_at_home(search, at_home, n);
     return !search->failed;
 }

@@ -1,9 +1,8 @@
 /* Clusters without a solution: because of limits, fixed bodies, or lack of room. The order of the stages is a table.
  *
- * Pairs that clash in the original places are given up, as few as the search can find (elastic.c), or in a large crowd
- * with almost no room (push_from_home.c). Such a pair is relaxed (relaxation.c): it stands no worse than at the start,
- * and no body is moved to ease it. At worst all bodies are in their original places, where every relaxation holds.
- * (retry_cluster.c asks for the relaxed pairs again.) */
+ * Pairs that clash in the original places are given up, as few as the search can find (elastic.c). Such a pair is
+ * relaxed (relaxation.c): it stands no worse than at the start, and no body is moved to ease it. At worst all bodies
+ * are in their original places, where every relaxation holds. (retry_cluster.c asks for the relaxed pairs again.) */
 #include "displacement/layer/stage_table.h"
 #include "displacement/solve/search/search_stages.h"
 #include "displacement/solve/search/tuning.h"
@@ -18,8 +17,7 @@ typedef struct giving_up {
     sunder_i_search *s;
     sunder_i_clash *at_home; /* [n] pairs that clash in the original places */
     size_t n;
-    bool pushed; /* the solution was made by pushing */
-    bool done;   /* nothing clashes */
+    bool done; /* nothing clashes */
 } giving_up;
 
 sunder_i_clash *sunder_i_search_at_home(sunder_i_search *search, size_t *n)
@@ -66,10 +64,6 @@ static void return_home(void *state)
 
 /* ---- The order --------------------------------------------------------------------------------------------------- */
 
-static bool was_pushed(const void *state) { return ((const giving_up *)state)->pushed; }
-
-static bool was_not_pushed(const void *state) { return !was_pushed(state); }
-
 static void fall_short(void *state)
 {
     giving_up *x = state;
@@ -78,13 +72,10 @@ static void fall_short(void *state)
 
 static void descend_last(void *state) { sunder_i_search_descend_or_stay(((giving_up *)state)->s); }
 
-static void equalise_moves(void *state) { sunder_i_search_equalise_moves(((giving_up *)state)->s); }
-
 static const sunder_i_stage stages[] = {
-    {"fall short", was_not_pushed, fall_short, 0},
+    {"fall short", NULL, fall_short, 0},
     {"descend again", NULL, descend_last, 0},
     {"return home", NULL, return_home, 0},
-    {"equalise moves", was_pushed, equalise_moves, 0},
 };
 
 static const char *look(const void *state, const double before[2], double now[2])
@@ -98,34 +89,10 @@ static const char *look(const void *state, const double before[2], double now[2]
 
 static const sunder_i_stage_table table = {"give up", stages, sizeof stages / sizeof *stages, look};
 
-static giving_up begin_giving_up(sunder_i_search *s)
-{
-    giving_up x = {.run = {.log = s->log, .failed = &s->failed}, .s = s};
-    x.at_home = sunder_i_search_at_home(s, &x.n);
-    s->failed = s->failed || !x.at_home;
-    return x;
-}
-
-/* Memory for a step of the trace may be out. */
-static void run_giving_up(giving_up *x)
-{
-    x->s->failed = x->s->failed || sunder_i_stages_run(&table, x);
-}
-
-bool sunder_i_search_give_up_at_home(sunder_i_search *search, const double *start)
-{
-    if (search->failed || sunder_i_search_movers(search) <= LARGE_CROWD) return false;
-    giving_up x = begin_giving_up(search);
-    if (!search->failed)
-        x.pushed = x.done = sunder_i_search_push_from_home(search, start, x.at_home, x.n);
-    if (x.pushed) run_giving_up(&x);
-    sunder_i_free(x.at_home);
-    return x.pushed;
-}
-
 void sunder_i_search_give_up(sunder_i_search *search)
 {
-    giving_up x = begin_giving_up(search);
-    run_giving_up(&x);
+    giving_up x = {.run = {.log = search->log, .failed = &search->failed}, .s = search};
+    x.at_home = sunder_i_search_at_home(search, &x.n);
+    if (!x.at_home || sunder_i_stages_run(&table, &x)) search->failed = true; /* memory is out */
     sunder_i_free(x.at_home);
 }

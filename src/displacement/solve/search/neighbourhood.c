@@ -8,7 +8,6 @@
 #include "displacement/solve/search/search_stages.h"
 #include "displacement/solve/search/tuning.h"
 
-#include <math.h>
 #include <string.h>
 
 static void box_at(const sunder_i_search *s, uint32_t i, double grown, double box[4])
@@ -47,7 +46,9 @@ void sunder_i_neighbourhood_free(sunder_i_neighbourhood *neighbourhood)
     memset(neighbourhood, 0, sizeof *neighbourhood);
 }
 
-bool sunder_i_neighbourhood_look_about(sunder_i_neighbourhood *neighbourhood, uint32_t i, double reach)
+/* Stores in neighbourhood->near, ascending, the bodies whose boxes come within `reach` of the box of body i, i itself
+ * included. Returns false if memory is out. */
+static bool look_about(sunder_i_neighbourhood *neighbourhood, uint32_t i, double reach)
 {
     double box[4];
     box_at(neighbourhood->all, i, reach, box);
@@ -74,7 +75,7 @@ static bool gather_bodies(sunder_i_neighbourhood *v, uint32_t i, uint32_t j, siz
     take_in(v, i);
     take_in(v, j);
     for (size_t at = 0; at < v->n && !v->wider; at++) {
-        if (!sunder_i_neighbourhood_look_about(v, v->place[at], reach)) return false;
+        if (!look_about(v, v->place[at], reach)) return false;
         for (size_t k = 0; k < v->near.n && !v->wider; k++) {
             v->wider = v->n >= most && !v->moves[v->near.item[k]] && v->all->mass[v->near.item[k]] > 0;
             if (!v->wider) take_in(v, v->near.item[k]);
@@ -82,7 +83,7 @@ static bool gather_bodies(sunder_i_neighbourhood *v, uint32_t i, uint32_t j, siz
     }
     v->moving = v->n;
     for (size_t at = 0; at < v->moving; at++) {
-        if (!sunder_i_neighbourhood_look_about(v, v->place[at], reach)) return false;
+        if (!look_about(v, v->place[at], reach)) return false;
         for (size_t k = 0; k < v->near.n; k++) {
             const uint32_t who = v->near.item[k];
             if (v->moves[who]) continue;
@@ -141,33 +142,18 @@ static void end_search(sunder_i_neighbourhood *v, sunder_i_search *inner)
     for (size_t k = 0; k < v->n; k++) v->moves[v->place[k]] = false;
 }
 
-/* Did bodies i and j make the same move, so that their relative position did not change? stood: [2 n] the moves of all
- * bodies before; NULL: not known, and the answer is no. */
-static bool went_together(const sunder_i_neighbourhood *v, uint32_t i, uint32_t j, const double *stood)
-{
-    const sunder_i_search *s = v->all;
-    if (!stood || !v->moves[j]) return false;
-    for (size_t x = 0; x < 2; x++) {
-        const size_t a = 2 * (size_t)i + x, b = 2 * (size_t)j + x;
-        if (fabs((s->t[a] - stood[a]) - (s->t[b] - stood[b])) > s->tolerance / TOGETHER) return false;
-    }
-    return true;
-}
-
-/* Do the moved bodies clash with no body of the whole search? stood: as in went_together(); pairs that moved together
- * are not tested. */
-static bool is_free(sunder_i_neighbourhood *v, const double *stood)
+/* Do the moved bodies clash with no body of the whole search? */
+static bool is_free(sunder_i_neighbourhood *v)
 {
     sunder_i_search *s = v->all;
     for (size_t m = 0; m < v->n && !s->failed; m++) {
         const uint32_t i = v->place[m];
         if (!v->moves[i]) continue;
-        if (!sunder_i_neighbourhood_look_about(v, i, s->gap)) s->failed = true;
+        if (!look_about(v, i, s->gap)) s->failed = true;
         for (size_t k = 0; k < v->near.n && !s->failed; k++) {
             const uint32_t j = v->near.item[k], p = i < j ? i : j, q = i < j ? j : i;
             const double u[2] = {s->t[2 * q] - s->t[2 * p], s->t[2 * q + 1] - s->t[2 * p + 1]};
             bool yields;
-            if (went_together(v, i, j, stood)) continue;
             if (i != j && sunder_i_search_pair(s, p, q, u, &yields) > s->tolerance) return false;
         }
     }
@@ -205,7 +191,7 @@ static bool end_where_it_went(sunder_i_neighbourhood *v, sunder_i_search *inner,
     if (done && !inner->failed) {
         give_back_cache(v, inner);
         put_bodies(v, inner->t);
-        done = is_free(v, NULL);
+        done = is_free(v);
         if (!done) put_bodies(v, v->t);
     }
     end_search(v, inner);
@@ -263,7 +249,7 @@ double sunder_i_neighbourhood_descend(sunder_i_neighbourhood *neighbourhood, uin
     if (gain > least) {
         give_back_cache(neighbourhood, &inner);
         put_bodies(neighbourhood, inner.t);
-        if (!is_free(neighbourhood, NULL)) gain = 0;
+        if (!is_free(neighbourhood)) gain = 0;
     }
     if (!(gain > least)) {
         put_bodies(neighbourhood, neighbourhood->t);
@@ -271,26 +257,4 @@ double sunder_i_neighbourhood_descend(sunder_i_neighbourhood *neighbourhood, uin
     }
     end_search(neighbourhood, &inner);
     return gain;
-}
-
-bool sunder_i_neighbourhood_put(sunder_i_neighbourhood *neighbourhood, const double *to)
-{
-    sunder_i_search *s = neighbourhood->all;
-    for (size_t k = 0; k < neighbourhood->n; k++) {
-        const size_t i = neighbourhood->place[k];
-        neighbourhood->moves[i] = true;
-        neighbourhood->body[k] = s->body[i];
-        memcpy(neighbourhood->t + 2 * i, s->t + 2 * i, 2 * sizeof *neighbourhood->t);
-    }
-    put_bodies(neighbourhood, to);
-    const bool free = is_free(neighbourhood, neighbourhood->t);
-    for (size_t k = 0; k < neighbourhood->n && !free; k++) {
-        const uint32_t i = neighbourhood->place[k];
-        double box[4];
-        memcpy(s->t + 2 * (size_t)i, neighbourhood->t + 2 * (size_t)i, 2 * sizeof *neighbourhood->t);
-        box_at(s, i, 0, box);
-        if (s->model->body[s->body[i]].pieces) sunder_i_rtree_move(&neighbourhood->tree, i, box);
-    }
-    for (size_t k = 0; k < neighbourhood->n; k++) neighbourhood->moves[neighbourhood->place[k]] = false;
-    return free;
 }

@@ -34,12 +34,5 @@ bool sunder_i_neighbourhood_repair(sunder_i_neighbourhood *neighbourhood, uint32
  * returned. Otherwise all bodies return to `best`, and 0 is returned. */
 double sunder_i_neighbourhood_descend(sunder_i_neighbourhood *neighbourhood, uint32_t i, uint32_t j, size_t most,
                                       double reach, const double *best, double least);
-/* The caller has stored n bodies in neighbourhood->place: gives them the moves to[2 n], unless one of them would clash
- * with another body; then no body moves. Returns whether they were moved. Pairs whose two bodies moved together are not
- * tested. */
-bool sunder_i_neighbourhood_put(sunder_i_neighbourhood *neighbourhood, const double *to);
-/* Stores in neighbourhood->near, ascending, the bodies whose boxes come within `reach` of the box of body i, i itself
- * included. Returns false if memory is out. */
-bool sunder_i_neighbourhood_look_about(sunder_i_neighbourhood *neighbourhood, uint32_t i, double reach);
 
 #endif

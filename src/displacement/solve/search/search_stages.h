@@ -98,9 +98,6 @@ bool sunder_i_search_spread(sunder_i_search *search);
 /* For a search that ended with clashes: solves the cluster but for pairs that clash in the original places, as few as
  * it can, and relaxes these. The new relaxations are in search->relaxations. */
 void sunder_i_search_give_up(sunder_i_search *search);
-/* As sunder_i_search_give_up(), before any other search, for a large crowd with limits that begins in its original
- * places and has almost no room. False, with nothing changed, if it is no such crowd, as far as pushing shows. */
-bool sunder_i_search_give_up_at_home(sunder_i_search *search, const double *start);
 /* Relaxes the pairs whose shortfall in the original places is at most the margin. Returns whether there were any. */
 bool sunder_i_search_waive_margins(sunder_i_search *search);
 /* Relaxes pair (i, j), unless it is relaxed already. Returns whether it was relaxed now; if so, the caller has to index
@@ -112,9 +109,6 @@ sunder_i_clash *sunder_i_search_at_home(sunder_i_search *search, size_t *n);
 
 /* ---- elastic.c --------------------------------------------------------------------------------------------------- */
 
-/* Moves all bodies to their original places and relaxes the n pairs that clash there. Returns whether nothing clashes
- * then; it does not unless memory is out. */
-bool sunder_i_search_relax_at_home(sunder_i_search *search, const sunder_i_clash *at_home, size_t n);
 /* Solves the cluster from the original places. The n pairs at_home clash there: each may fall short of its distance,
  * and is relaxed if it does. False if memory is out. */
 bool sunder_i_search_fall_short(sunder_i_search *search, const sunder_i_clash *at_home, size_t n);
@@ -127,33 +121,12 @@ void sunder_i_search_yield(sunder_i_search *search, const sunder_i_clash *at_hom
 /* Moves body i to its original place. Returns whether it stood elsewhere and may move. */
 bool sunder_i_search_send_home(sunder_i_search *search, uint32_t i);
 
-/* ---- push_back.c ------------------------------------------------------------------------------------------------- */
-
-/* From a layout without clashes: demands the full distance again of each pair that this search relaxed, one after the
- * other, and pushes the bodies in the way straight on (pushed.c). A pair for which there is room is no longer
- * relaxed. */
-void sunder_i_search_push_back(sunder_i_search *search);
-
-/* ---- common_moves.c ---------------------------------------------------------------------------------------------- */
-
-/* Gives neighbours whose moves differ by at most the tolerance exactly the same move. If that leaves a clash that
- * pushing does not resolve, all bodies keep their moves. */
-void sunder_i_search_equalise_moves(sunder_i_search *search);
-
 /* ---- mend_few.c -------------------------------------------------------------------------------------------------- */
 
 /* For a large crowd with few clashes, one of whose bodies was sent home to stay there (`pinned` in the model): settles
  * each clash together with the bodies around it. A very large crowd yields where that fails. True if nothing clashes
  * then. False, with nothing changed, if it is no such crowd or settling failed. */
 bool sunder_i_search_mend_few(sunder_i_search *search);
-
-/* ---- push_from_home.c -------------------------------------------------------------------------------------------- */
-
-/* For a crowd in its original places, where n pairs clash: relaxes all of them, and restores by pushing those for which
- * there is room. False, with nothing changed, if at most the share LEFT_AT_HOME of them stays relaxed, since there may
- * be more room than pushing shows; or if a body stands elsewhere, or none has a limit. */
-bool sunder_i_search_push_from_home(sunder_i_search *search, const double *start, const sunder_i_clash *at_home,
-                                    size_t n);
 
 /* ---- pair_margin.c ----------------------------------------------------------------------------------------------- */
 

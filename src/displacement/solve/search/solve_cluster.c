@@ -144,12 +144,6 @@ static void mend_few(void *state)
     x->done = x->given_up = sunder_i_search_mend_few(x->s);
 }
 
-static void give_up_at_home(void *state)
-{
-    solving *x = state;
-    x->done = x->given_up = sunder_i_search_give_up_at_home(x->s, x->move);
-}
-
 /* Descends; if sides contradict each other, bodies jump and all descend again, up to the budget's number of times. If
  * no jump clears the clashes, a limited cluster gives up, after one more descent if it may not relax pairs. */
 static void descend_cluster(void *state)
@@ -241,7 +235,6 @@ static const sunder_i_stage stages[] = {
     {"part lone pair", NULL, part_lone_pair, 0},
     {"begin crowd", is_unsolved_crowd, begin_crowd, 0},
     {"mend few", may_give_up_at_once, mend_few, 0},
-    {"give up at home", may_give_up_at_once, give_up_at_home, 0},
     {"descend", is_unsolved, descend_cluster, MOST_JUMPS},
     {"waive margins", is_unsolved_question, waive_margins, MOST_JUMPS},
     {"begin from lifted", was_lifted, begin_from_lifted, MOST_JUMPS},

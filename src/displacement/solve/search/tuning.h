@@ -8,7 +8,7 @@
 
 /* SUNDER_I_SEARCH_TUNING_VERSION is the version of the values below. It is raised with each change of a value, so that
  * a record can name the values by their version (tests/house/TUNING). */
-#define SUNDER_I_SEARCH_TUNING_VERSION 8
+#define SUNDER_I_SEARCH_TUNING_VERSION 9
 
 /* ---- One descent (descend.c, constrain.c, limits.c) -------------------------------------------------------------- */
 
@@ -136,7 +136,7 @@
 #define FEWEST_MEASURES 64
 #define MOST_MEASURES 4096
 
-/* ---- Pairs given up (elastic.c, give_up.c, push_back.c, push_from_home.c) ---------------------------------------- */
+/* ---- Pairs given up (elastic.c, give_up.c) ----------------------------------------------------------------------- */
 
 /* A pair that lacks s pays w (DEAR R s + DEAR_SQUARE s^2): R is the lesser limit, w the lesser weight of its bodies. A
  * move of length r <= R costs w r^2, so it pays to push some sixteen bodies as far as their limits. With 8 or 64 in
@@ -151,30 +151,6 @@
 /* A descent at prices ends with a round that gains less than the share SETTLED_AT_PRICES. With 1e-4 a grid of 1,600
  * squares takes a third longer and keeps as many pairs. */
 #define SETTLED_AT_PRICES 1e-2
-/* Lines between two bodies are recomputed once the two have moved by the share PUSHED_STALE of the greatest violation
- * (pushed_lines.c). A body is not pushed if the component of its line's normal along the path is at most PUSHED_BESIDE
- * (pushed.c). */
-#define PUSHED_STALE 0.125
-#define PUSHED_BESIDE 1e-9
-/* Obstacles in one direction are surveyed once failed questions have looked at PUSHED_SURVEY times as many bodies as
- * the search has (pushed_in_vain.c). For 5,041 squares pushing looks at 640 million lines without a survey, 520 with a
- * value of 1, 330 with 2, and 250 with 8. */
-#define PUSHED_SURVEY 8
-/* Pairs are pushed in order of their violations: first those up to the greatest violation divided by PUSHED_FIRST, then
- * up to a violation larger by the factor PUSHED_LEVELS each time. */
-#define PUSHED_FIRST 8
-#define PUSHED_LEVELS 1.2
-/* Pushing takes at most the work PUSHED_MOST, plus PUSHED_EACH for each body: in a grid of 20,000 squares most pairs
- * reach thousands of others without success. */
-#define PUSHED_MOST 100000000u
-#define PUSHED_EACH 40000u
-/* A crowd that has more than the share LEFT_AT_HOME given up after pushing has almost no room: grids of thousands keep
- * four in five. Pushing is repeated as long as it takes back more than one in LEAST_PUSHED of the rest. */
-#define LEFT_AT_HOME 0.75
-#define LEAST_PUSHED 64
-/* If a level takes back less than one in LEAST_OF_LEVEL, all remaining pairs are asked for at once. A grid of 20,000
- * was asked six times more for 35 of 60,000 pairs, in a sixth of the total time. */
-#define LEAST_OF_LEVEL 1024
 /* A move of at most the share NEARLY_HOME of a body's extent is a residue of descents and counts as none. */
 #define NEARLY_HOME 1e-7
 
@@ -236,9 +212,6 @@
 #define SHORT_PATIENCE 20000u
 #define SHORT_PATIENCE_EACH 600u
 
-/* Two bodies are not compared again if their moves differ by at most the tolerance divided by TOGETHER
- * (went_together()). */
-#define TOGETHER 64
 /* Tiny violations are repaired in at most MOST_MENDING rounds (descend.c), which may take MENDING_TIMES the work of a
  * descent. */
 #define MOST_MENDING 4
