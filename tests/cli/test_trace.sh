@@ -23,14 +23,11 @@ assert all({"scope", "outcome"} <= set(e) for e in events), "a line without scop
 assert {e["scope"] for e in events} == {"layer", "cluster", "group", "pair"}, "a scope is missing"
 stages = {e.get("stage") for e in events}
 assert {"settle", "reconsider", "improve"} <= stages, stages
-# The steps of the search within a stage appear with their tables, too. The line of a step that is part of another one
-# comes before that one's line.
+# The steps of the search within a stage appear with their tables, too.
 tables = {(e.get("table"), e.get("step")) for e in events}
 for row in (("layer", None), ("search", None), ("settle", "commit"), ("optimise", "take over"), ("cluster", "descend"),
-            ("give up", "fall short"), ("retry", "end overlaps"), ("improve", "try places and sides"), ("group", "grow tree")):
+            ("cluster", "give up"), ("retry", "end overlaps"), ("improve", "try places and sides"), ("group", "grow tree")):
     assert row in tables, row
-within = [k for k, e in enumerate(events) if e.get("table") == "give up"]
-assert all(events[k + 1].get("table") == "give up" or events[k + 1].get("step") == "give up" for k in within), "give up"
 # Each row of the layer of conflicts has its line, with the same reason.
 said = sorted((tuple(e["features"]), tuple(b[1] for b in e.get("barriers", [])), e["outcome"])
               for e in events if e.get("step") == "why it remains")

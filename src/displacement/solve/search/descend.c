@@ -404,17 +404,6 @@ bool sunder_i_search_repair(sunder_i_search *search)
     return left <= search->tolerance && !search->failed;
 }
 
-void sunder_i_search_descend_or_stay(sunder_i_search *search)
-{
-    double *stand = sunder_i_search_copy_moves(search);
-    bool descended = true;
-    if (!search->failed && sunder_i_search_find_clashes(search, search->t) <= search->tolerance) {
-        search->program.n = 0;
-        descended = sunder_i_search_descend(search);
-    }
-    sunder_i_search_end_copy(search, stand, !descended);
-}
-
 bool sunder_i_search_attempt(sunder_i_search *search, double *best, double *cost)
 {
     const size_t size = 2 * search->n * sizeof *best;

@@ -1,4 +1,6 @@
-/* Which pairs of a cluster to give up, by prices.
+/* Which pairs of a cluster without a solution to give up, by prices; the cause may be limits, fixed bodies, or lack of
+ * room. Such a pair is relaxed (relaxation.c): it stands no worse than at the start, and no body is moved to ease it.
+ * (retry_cluster.c asks for the relaxed pairs again.)
  *
  * A pair that clashes in the original places may fall short of its distance, at a price; all other pairs keep theirs.
  * With all bodies in their original places that holds, so every program on the way from there has a solution. The price
@@ -108,12 +110,14 @@ static void end_solved(sunder_i_search *s)
     sunder_i_free(solved);
 }
 
-bool sunder_i_search_fall_short(sunder_i_search *search, const sunder_i_clash *at_home, size_t n)
+void sunder_i_search_give_up(sunder_i_search *search)
 {
-    if (!relax_at_home(search, at_home, n)) return false;
-    const bool done = descend_at_prices(search);
+    size_t n = 0;
+    sunder_i_clash *at_home = sunder_i_search_at_home(search, &n);
+    if (!at_home) search->failed = true;
+    const bool done = at_home && relax_at_home(search, at_home, n) && descend_at_prices(search);
     if (done) end_solved(search);
     search->shortfalls = search->creditor.n = 0;
-    if (!done) relax_at_home(search, at_home, n);
-    return !search->failed;
+    if (!done && !search->failed) relax_at_home(search, at_home, n);
+    sunder_i_free(at_home);
 }

@@ -1,6 +1,6 @@
 /* Pairs that were given up are asked again for their full distance.
  *
- * More pairs than necessary may have been relaxed together (give_up.c). So once clusters no longer merge, the full
+ * More pairs than necessary may have been relaxed together (elastic.c). So once clusters no longer merge, the full
  * distance is demanded again of one pair at a time, overlaps first, while all other pairs keep their relaxations. If
  * several members of two blocks are in conflict, all these conflicts are tried together, and then each by itself, since
  * one may have no solution where others do. At first only the pair moves, then more and more bodies around it
@@ -31,7 +31,6 @@ typedef struct retrying {
     uint64_t effort;       /* of all demands */
     uint64_t end;          /* tries end when the work (sunder_i_search_work()) reaches this */
     uint64_t in_vain_most; /* work at one level without a success, after which the level ends */
-    bool any;              /* a try has succeeded */
     sunder_i_neighbourhood neighbourhood;
 } retrying;
 
@@ -216,7 +215,6 @@ static void ask_request(retrying *p, const request *r)
         for (size_t k = 0; k < p->n && !s->failed && sunder_i_search_work(s) < p->end; k++) {
             if ((p->in_vain[k] && level < LEVELS) || is_out(p, k, r) || is_useless(p, &u, level)) continue;
             p->settled[k] = grant_retry(p, k, level, r->resolve);
-            p->any = p->any || p->settled[k];
             any = any || p->settled[k];
             u.asked++;
             if (p->settled[k]) u = (useless){0, sunder_i_search_work(s), most};
@@ -302,7 +300,6 @@ static void trade_pairs(void *state)
         if (!x->overlap || is_out(p, k, &r)) continue;
         sacrifice_pairs(s, &list);
         p->settled[k] = list.n && !s->failed && (grant_retry(p, k, LEVELS, false) || grant_from_home(p, k));
-        p->any = p->any || p->settled[k];
         if (p->settled[k]) redeem_pairs(p, &list);
         for (size_t t = 0; t < list.n && !p->settled[k]; t++)
             sunder_i_relaxations_remove(&s->relaxations, s->model, &list.item[t]);
@@ -346,19 +343,10 @@ static void resolve_pairs(void *state) { ask_requests(state, false, true); }
 
 static bool has_gap(const void *state) { return ((const retrying *)state)->search->model->rules.gap > 0; }
 
-static bool has_any_of_many(const void *state)
-{
-    const retrying *p = state;
-    return p->any && p->moving > FEW;
-}
-
-static void descend(void *state) { sunder_i_search_descend_or_stay(((retrying *)state)->search); }
-
 /* First as few overlaps as possible, then as few pairs. The total effort is divided by the budget. */
 static const sunder_i_stage stages[] = {
     {"resolve overlaps", NULL, resolve_overlaps, 2}, {"end overlaps", NULL, end_overlaps, 2},
     {"resolve pairs", NULL, resolve_pairs, 2},       {"trade pairs", has_gap, trade_pairs, 2},
-    {"descend again", has_any_of_many, descend, 0},
 };
 
 static const char *look(const void *state, const double before[2], double now[2])

@@ -71,8 +71,6 @@ bool sunder_i_search_constrain_further(sunder_i_search *search);
  * optimum, unless the patience ended, or search->hope was out of reach. Otherwise search->t is a compromise between
  * contradicting sides. */
 bool sunder_i_search_descend(sunder_i_search *search);
-/* Descends from search->t, and returns to it if that fails. If search->t clashes, nothing is done. */
-void sunder_i_search_descend_or_stay(sunder_i_search *search);
 /* Descends from search->t; keeps the result if it is free and cheaper than *cost, else returns to best. */
 bool sunder_i_search_attempt(sunder_i_search *search, double *best, double *cost);
 /* For a layout search->t with tiny violations: finds the nearest layout without violations that keeps the sides of all
@@ -93,11 +91,14 @@ bool sunder_i_search_jump_soon(sunder_i_search *search);
  * search->t is the layout with the fewest clashes. */
 bool sunder_i_search_spread(sunder_i_search *search);
 
-/* ---- give_up.c: pairs that no solution was found for ------------------------------------------------------------- */
+/* ---- elastic.c: pairs that no solution was found for ------------------------------------------------------------- */
 
-/* For a search that ended with clashes: solves the cluster but for pairs that clash in the original places, as few as
- * it can, and relaxes these. The new relaxations are in search->relaxations. */
+/* For a search that ended with clashes: solves the cluster from the original places but for pairs that clash there, as
+ * few as it can, and relaxes these. The new relaxations are in search->relaxations. */
 void sunder_i_search_give_up(sunder_i_search *search);
+
+/* ---- home_clashes.c: pairs that clash in the original places ----------------------------------------------------- */
+
 /* Relaxes the pairs whose shortfall in the original places is at most the margin. Returns whether there were any. */
 bool sunder_i_search_waive_margins(sunder_i_search *search);
 /* Relaxes pair (i, j), unless it is relaxed already. Returns whether it was relaxed now; if so, the caller has to index
@@ -106,12 +107,6 @@ bool sunder_i_search_relax(sunder_i_search *search, uint32_t i, uint32_t j);
 /* The pairs that clash if all bodies are in their original places: *n of them, sorted, owned by the caller. NULL if
  * memory is out. */
 sunder_i_clash *sunder_i_search_at_home(sunder_i_search *search, size_t *n);
-
-/* ---- elastic.c --------------------------------------------------------------------------------------------------- */
-
-/* Solves the cluster from the original places. The n pairs at_home clash there: each may fall short of its distance,
- * and is relaxed if it does. False if memory is out. */
-bool sunder_i_search_fall_short(sunder_i_search *search, const sunder_i_clash *at_home, size_t n);
 
 /* ---- yield.c ----------------------------------------------------------------------------------------------------- */
 

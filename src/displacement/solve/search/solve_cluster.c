@@ -51,19 +51,6 @@ static bool has_limits(const sunder_i_search *s)
     return false;
 }
 
-/* Does the layout cost more than if all bodies were at their limits? Then its sides are of no use within limits. */
-static bool is_beyond_use(const sunder_i_search *s, const double *t)
-{
-    double cost = 0, most = 0;
-    for (uint32_t k = 0; k < s->n; k++) {
-        const double limit = sunder_i_search_limit(s, k), *at = t + 2 * (size_t)s->body[k];
-        if (!(s->mass[k] > 0)) continue;
-        cost += (at[0] * at[0] + at[1] * at[1]) / (2 * s->mass[k]);
-        most += limit * limit / (2 * s->mass[k]);
-    }
-    return cost > most;
-}
-
 static bool is_unsolved(const void *state) { return !((const solving *)state)->done; }
 
 static bool is_unsolved_crowd(const void *state)
@@ -86,13 +73,6 @@ static bool may_give_up(const void *state)
 static bool may_give_up_at_once(const void *state)
 {
     return may_give_up(state) && has_limits(((const solving *)state)->s);
-}
-
-static bool was_lifted(const void *state)
-{
-    const solving *x = state;
-    const double *lifted = x->s->model->lifted;
-    return !x->done && lifted && has_limits(x->s) && !is_beyond_use(x->s, lifted);
 }
 
 static uint32_t count_movers(const sunder_i_search *s, uint32_t *mover)
@@ -170,18 +150,6 @@ static void waive_margins(void *state)
     descend_cluster(x);
 }
 
-/* Starts again from the layout that was found without limits (model->lifted), whose sides may also serve within
- * limits. */
-static void begin_from_lifted(void *state)
-{
-    solving *x = state;
-    sunder_i_search *s = x->s;
-    for (size_t k = 0; k < s->n; k++)
-        if (s->mass[k] > 0) memcpy(s->t + 2 * k, s->model->lifted + 2 * (size_t)s->body[k], 2 * sizeof *s->t);
-    s->program.n = 0;
-    descend_cluster(x);
-}
-
 static void spread_cluster(void *state)
 {
     solving *x = state;
@@ -237,7 +205,6 @@ static const sunder_i_stage stages[] = {
     {"mend few", may_give_up_at_once, mend_few, 0},
     {"descend", is_unsolved, descend_cluster, MOST_JUMPS},
     {"waive margins", is_unsolved_question, waive_margins, MOST_JUMPS},
-    {"begin from lifted", was_lifted, begin_from_lifted, MOST_JUMPS},
     {"spread", is_unsolved, spread_cluster, 0},
     {"place lone body", is_lone_body, place_lone_body, 0},
     {"ask whether cheapest", may_be_cheapest, ask_whether_cheapest, 0},

@@ -8,7 +8,7 @@
 
 /* SUNDER_I_SEARCH_TUNING_VERSION is the version of the values below. It is raised with each change of a value, so that
  * a record can name the values by their version (tests/house/TUNING). */
-#define SUNDER_I_SEARCH_TUNING_VERSION 9
+#define SUNDER_I_SEARCH_TUNING_VERSION 10
 
 /* ---- One descent (descend.c, constrain.c, limits.c) -------------------------------------------------------------- */
 
@@ -136,7 +136,7 @@
 #define FEWEST_MEASURES 64
 #define MOST_MEASURES 4096
 
-/* ---- Pairs given up (elastic.c, give_up.c) ----------------------------------------------------------------------- */
+/* ---- Pairs given up (elastic.c) ---------------------------------------------------------------------------------- */
 
 /* A pair that lacks s pays w (DEAR R s + DEAR_SQUARE s^2): R is the lesser limit, w the lesser weight of its bodies. A
  * move of length r <= R costs w r^2, so it pays to push some sixteen bodies as far as their limits. With 8 or 64 in
@@ -151,8 +151,6 @@
 /* A descent at prices ends with a round that gains less than the share SETTLED_AT_PRICES. With 1e-4 a grid of 1,600
  * squares takes a third longer and keeps as many pairs. */
 #define SETTLED_AT_PRICES 1e-2
-/* A move of at most the share NEARLY_HOME of a body's extent is a residue of descents and counts as none. */
-#define NEARLY_HOME 1e-7
 
 /* ---- Where there is room (free_positions.c) ---------------------------------------------------------------------- */
 
