@@ -179,8 +179,8 @@ static uint32_t find_missed(sunder_i_tree *t)
     return worst;
 }
 
-/* Returns the cut that a pair lacks at least 0, or no more than the most, for the pair that violates it most at
- * program.t by more than rounding; UINT32_MAX if there is none. */
+/* Each eased pair has two cuts, for the least and for the most that it may lack. Returns the one of all these that
+ * program.t violates most, by more than rounding; UINT32_MAX if there is none. */
 static uint32_t find_beyond(sunder_i_tree *t)
 {
     uint32_t worst = UINT32_MAX;
@@ -254,6 +254,7 @@ double sunder_i_tree_solve(sunder_i_tree *tree)
         value = sunder_i_max(value, sunder_i_dual_value(&tree->program));
         if (outcome == SUNDER_I_DUAL_STUCK) break;
     }
-    /* The last value is that of the present forces: D only decreases by rounding. */
+    /* `value` is the greatest value of all rounds. The present forces prove the last one, which rounding may have made
+     * smaller. */
     return sunder_i_dual_value(&tree->program);
 }

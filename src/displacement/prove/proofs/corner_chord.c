@@ -1,5 +1,6 @@
-/* Chords in questions: across corners that two sides of barriers share, and across ends of two sides on one ray from
- * the anchor (geometry/side_chord.c). Two sides whose ends the anchor's path passes are spokes. */
+/* Chords in proofs: a chord joins points of two sides of barriers, and a move that passes between the two sides crosses
+ * it (geometry/side_chord.c). It is drawn across a corner that the two sides share, or across ends of the two that lie
+ * on one ray from the anchor. A side is called a spoke here if the anchor's path passes one of its ends. */
 #include "displacement/geometry/side_chord.h"
 #include "displacement/geometry/tuning.h"
 #include "displacement/prove/proofs/plane.h"
@@ -79,7 +80,8 @@ static bool shuts_move(sunder_i_branching *c, uint32_t p, const spoke *s, const 
     return !c->failed && sunder_i_branching_depth(c, *half_planes, u) > 0;
 }
 
-/* Adds the spoke behind the *n that there are. Returns the first one that shuts the move together with it, or NULL. */
+/* Counts spokes[*n] as a spoke, which the caller has filled in. Returns the first earlier one whose chord with it
+ * excludes the move u, or NULL. */
 static const spoke *add_spoke(sunder_i_branching *c, uint32_t p, spoke spokes[SPOKES], size_t *n, const double u[2],
                               sunder_i_chord *chord, size_t *half_planes)
 {
@@ -119,7 +121,8 @@ const sunder_i_plane_obstacle *sunder_i_plane_find_chord(sunder_i_plane *plane, 
 
 /* ---- Chords for a candidate -------------------------------------------------------------------------------------- */
 
-/* Adds the spokes among the sides of a part that the anchor of body p may not cross. Returns as add_spoke(). */
+/* Adds the spokes among the sides of a part that the anchor of body p may not cross. Returns what add_spoke() returned
+ * last, or NULL. */
 static const spoke *look_at_sides(sunder_i_branching *c, uint32_t p, const sunder_i_body_piece *anchor, uint32_t part,
                                   const double u[2], spoke spokes[SPOKES], size_t *n)
 {
@@ -136,7 +139,7 @@ static const spoke *look_at_sides(sunder_i_branching *c, uint32_t p, const sunde
     return first;
 }
 
-/* Adds the spokes along the way of the anchor, which moves by -u. Returns as add_spoke(). */
+/* Adds the spokes along the path of the anchor, which moves by -u. Returns what add_spoke() returned last. */
 static const spoke *find_spokes(sunder_i_branching *c, uint32_t p, const sunder_i_body_piece *anchor, const double u[2],
                                 spoke spokes[SPOKES])
 {

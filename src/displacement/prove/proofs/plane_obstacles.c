@@ -1,8 +1,8 @@
 /* The obstacles in the plane of one relative move: pairs of pieces that must keep a distance, and pieces that anchors
- * may not pass. Which pieces qualify depends on the model alone, and is found once for all questions about the two
- * bodies. The distance that they have to keep depends on the question, and is the same for nearly all pieces in most
- * questions. The half-planes of each are made at most once, as in violations.c, when the first place near it is tested;
- * most are never needed. */
+ * may not pass. Which pieces these are depends on the model alone, and is found once for all questions about the two
+ * bodies. The distance that they have to keep depends on the question. It is the same for all obstacles between the
+ * same two things, which form a run. The half-planes of an obstacle are made at most once, as in violations.c, when the
+ * first place near it is tested; most are never needed. */
 #include "displacement/layer/reads.h"
 #include "displacement/prove/proofs/plane.h"
 
@@ -20,9 +20,9 @@ enum { PIECES, JUMPS, SIDES }; /* indices of sunder_i_plane_kept.looked */
 
 typedef struct finding {
     const sunder_i_model *model;
-    uint32_t p;
-    double reach;
-    struct sunder_i_plane_kept *kept;
+    uint32_t p;                       /* the body whose obstacles are found */
+    double reach;                     /* an upper bound of the relative moves that matter */
+    struct sunder_i_plane_kept *kept; /* receives them */
 } finding;
 
 /* ---- Finding obstacles ------------------------------------------------------------------------------------------- */
@@ -131,6 +131,7 @@ static bool find_sides(const finding *w, uint32_t part)
     return true;
 }
 
+/* Finds the obstacles between bodies w->p and q. Returns false if memory is out. */
 static bool find_beside(const finding *w, uint32_t q)
 {
     const sunder_i_model *model = w->model;
@@ -139,6 +140,8 @@ static bool find_beside(const finding *w, uint32_t q)
     return model->rules.jumps || (find_jumps(w, q, false) && find_jumps(w, q, true));
 }
 
+/* Finds the obstacles between body w->p and all bodies near it that cannot move: fixed ones and parts of barriers.
+ * Returns false if memory is out. */
 static bool find_on_ground(const finding *w)
 {
     const sunder_i_model *model = w->model;
@@ -240,8 +243,8 @@ void sunder_i_plane_bound(const sunder_i_plane *plane, const sunder_i_plane_obst
     if (sqrt(square) > far + margin || !(box[0] <= box[2] && box[1] <= box[3])) sunder_i_box_clear(box);
 }
 
-/* Sets box to the box of what limits leave of the set behind the half-planes in c->scratch. Returns false if nothing is
- * left. */
+/* Clips the set behind all half-planes in c->scratch to the relative moves within the limits, and sets box to the box
+ * of what is left. Returns false if nothing is left. */
 static bool is_within_reach(const sunder_i_plane *g, size_t half_planes, double box[4])
 {
     const sunder_i_branching *c = g->c;
@@ -283,8 +286,8 @@ bool sunder_i_plane_make_half_planes(sunder_i_plane *plane, size_t at)
     return true;
 }
 
-/* Lists the obstacles of a run of which limits may leave something, for this clearance. Returns false if memory is
- * out. */
+/* Gives the obstacles of run `at` this clearance, and adds those to the index that relative moves within the limits may
+ * reach. Returns false if memory is out. */
 static bool make_run(sunder_i_plane *g, size_t at, double clearance)
 {
     struct sunder_i_plane_kept *kept = g->kept;
@@ -327,6 +330,8 @@ static bool add_run(struct sunder_i_plane_kept *kept, size_t of)
     return true;
 }
 
+/* Lists run `at` for this clearance. A run that was made for another clearance before is copied. Returns false if
+ * memory is out. */
 static bool list_run(sunder_i_plane *g, size_t at, double clearance)
 {
     struct sunder_i_plane_kept *kept = g->kept;

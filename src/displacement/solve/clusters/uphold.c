@@ -9,10 +9,10 @@
  *     - the search finds places nearby for the pair and the bodies around it that leave a margin
  *       (../search/pair_margin.c);
  *     - if there are none (a slanted corridor of exact width has none), the body with the cheaper move is pinned to its
- *       original place. Its neighbours settle around it, and if they cannot, yield in their turn. A pair of the same
- *       cluster waits until they have settled: the pinned body is in the way of others meanwhile, and these need not be
- *       pinned as well. In a cluster of thousands, which takes long to settle, only pairs with one of these two bodies
- *       wait.
+ *       original place. Its neighbours are solved again around it, and pairs that have no solution then are given up.
+ *       Other pairs of the same cluster wait until that is done: the pinned body is in their way meanwhile, and their
+ *       bodies need not be pinned as well. In a cluster of thousands, which takes long to settle, only pairs with one
+ *       of these two bodies wait.
  *
  * A place that is taken breaks the rule for no pair, a pinned body stays pinned, and with all bodies in their original
  * places nothing stands worse: the loop ends. */

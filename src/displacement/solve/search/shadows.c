@@ -249,8 +249,7 @@ void sunder_i_search_visit_passing(sunder_i_search *search, const double *t, dou
     sunder_i_sort_few(list, n, sizeof *list, by_left);
     for (size_t x = 0; x < n && !search->failed; x++)
         for (size_t y = x + 1; y < n && list[y].box[0] <= list[x].box[2] && !search->failed; y++) {
-            const uint32_t i = list[x].body < list[y].body ? list[x].body : list[y].body,
-                           j = list[x].body ^ list[y].body ^ i;
+            const uint32_t a = list[x].body, b = list[y].body, i = a < b ? a : b, j = a < b ? b : a;
             if (list[y].box[1] > list[x].box[3] || list[x].box[1] > list[y].box[3]) continue;
             if (!(search->mass[i] + search->mass[j] > 0) || are_near(search, t, i, j, reach)) continue;
             if (sunder_i_row_side_of(search->model, &search->model->body[search->body[i]], search->body[j])) continue;
