@@ -26,3 +26,15 @@ double sunder_i_solver_margin(const sunder_i_solver *solver, const uint32_t *b, 
     frexp(largest + sunder_i_max(solver->model.rules.full_gap, solver->barriers.farthest), &exponent);
     return ldexp(1, exponent - 51 + 2 * (int)widened);
 }
+
+void sunder_i_solver_narrow_margin(sunder_i_solver *solver, sunder_i_cluster *cluster)
+{
+    unsigned widened = 0;
+    for (size_t k = 0; k < cluster->n; k++) {
+        const uint32_t b = cluster->body[k];
+        if (solver->widened[b] > widened) widened = solver->widened[b];
+        /* A fixed body may be a member of another cluster as well. */
+        if (!solver->model.body[b].fixed) solver->widened[b] = 0;
+    }
+    cluster->margin = ldexp(cluster->margin, -2 * (int)widened);
+}

@@ -15,6 +15,34 @@
 
 #include <string.h>
 
+/* Relaxes the pairs of members of two bodies that have no relaxation. A relaxation that was changed since it was made
+ * stays as it is: of two relaxations of a pair, which one is found would depend on the rest of the list. */
+static bool relax_bodies(sunder_i_model *model, uint32_t i, uint32_t j, double reach)
+{
+    sunder_i_relaxations made = {0};
+    bool ok = sunder_i_relaxations_make(model, i, j, reach, &made);
+    for (size_t k = 0; k < made.n && ok; k++)
+        if (!sunder_i_relaxations_find(&model->relaxations, made.item[k].a, made.item[k].b))
+            ok = sunder_i_relaxations_insert(&model->relaxations, model, &made.item[k]);
+    sunder_i_relaxations_free(&made);
+    return ok;
+}
+
+/* Relaxes the pairs that are in conflict without a relaxation: those of two bodies that were both pinned when they were
+ * put back (uphold.c). Otherwise their clusters would begin with a clash. */
+static sunder_status relax_open_pairs(sunder_i_solver *s, sunder_error *err)
+{
+    sunder_i_model *model = &s->model;
+    bool ok = true;
+    for (size_t k = 0; k < s->now.n && ok; k++) {
+        const sunder_i_relation *r = &s->now.pair[k];
+        const uint32_t pair[2] = {model->body_of[r->a], model->body_of[r->b]};
+        if (sunder_i_is_open_conflict(model, r))
+            ok = relax_bodies(model, pair[0], pair[1], model->rules.gap + 2 * sunder_i_solver_margin(s, pair, 2));
+    }
+    return ok ? SUNDER_OK : sunder_i_failure_cause(err);
+}
+
 /* Marks the bodies of pairs that may fall short. Their clusters are eased first; later only those that others joined,
  * so that no cluster is eased once more on account of another one. */
 static bool mark_short(sunder_i_solver *s)
@@ -164,9 +192,7 @@ static sunder_status try_moves(sunder_i_solver *s, sunder_i_cluster *c, bool *ag
         return SUNDER_OK;
     }
     sunder_i_reads_begin(&reading, &s->model, sunder_i_reader_for(s, c));
-    sunder_status status = sunder_i_trial_take_moved(&t, c, move)
-                               ? SUNDER_OK
-                               : sunder_i_failure_cause(err);
+    sunder_status status = sunder_i_trial_take_moved(&t, c, move) ? SUNDER_OK : sunder_i_failure_cause(err);
     if (!status && t.n) status = sunder_i_trial_place(&t, none, err);
     sunder_i_reads_end(&reading);
     if (t.well || t.n == 0)
@@ -223,10 +249,19 @@ static sunder_status gather_groups(sunder_i_solver *s, sunder_error *err)
     return ok ? sunder_i_solver_gather_groups(s, err) : sunder_i_failure_cause(err);
 }
 
+/* Clusters that are to be eased get the usual margin. A wide one, which they got in vain, would leave no layout without
+ * clashes to begin with. Other clusters keep theirs: a part of the layer may have nothing to ease. */
+static void narrow_margins(sunder_i_solver *s)
+{
+    for (size_t k = 0; k < s->clusters; k++)
+        if (has_to_ease(s, &s->cluster[k])) sunder_i_solver_narrow_margin(s, &s->cluster[k]);
+}
+
 /* One round: eases clusters, and then joins those that are in each other's way, if there are any (*more). */
 static sunder_status ease_round(sunder_i_solver *s, bool *more, sunder_error *err)
 {
     bool again, apart = false;
+    narrow_margins(s);
     sunder_status status = sunder_i_solver_unite_blocks(s, err);
     if (!status) status = ease_clusters(s, has_to_ease, &again, err);
     for (int k = 0; k < MOST_PINNINGS && again && !status; k++) status = ease_clusters(s, has_pinned, &again, err);
@@ -241,8 +276,8 @@ sunder_status sunder_i_solver_ease(sunder_i_solver *solver, sunder_error *err)
 {
     bool more = true, any;
     const bool slack = sunder_i_has_slack(&solver->model);
-    sunder_status status =
-        mark_short(solver) ? join_short_pairs(solver, true, &any, err) : sunder_i_failure_cause(err);
+    sunder_status status = relax_open_pairs(solver, err);
+    if (!status) status = mark_short(solver) ? join_short_pairs(solver, true, &any, err) : sunder_i_failure_cause(err);
     for (int round = 0; round < (slack ? MOST_JOININGS_OF_TIGHT : MOST_JOININGS) && more && !status; round++)
         status = ease_round(solver, &more, err);
     sunder_i_free(solver->to_ease);

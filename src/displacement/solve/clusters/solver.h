@@ -171,6 +171,8 @@ bool sunder_i_solver_any_of(const sunder_i_solver *solver, const uint32_t *body,
 bool *sunder_i_solver_connected_with(const sunder_i_solver *solver, sunder_i_body_test test);
 /* The margin of a cluster of these n bodies: the distance demanded beyond the gap. */
 double sunder_i_solver_margin(const sunder_i_solver *solver, const uint32_t *b, size_t n);
+/* Gives a cluster the margin that it had before checks failed, and its movable bodies as well. */
+void sunder_i_solver_narrow_margin(sunder_i_solver *solver, sunder_i_cluster *cluster);
 /* The root of the cluster: the areas that the search reads are recorded for this body, which is in no other cluster. */
 static inline uint32_t sunder_i_reader_for(const sunder_i_solver *solver, const sunder_i_cluster *cluster)
 {

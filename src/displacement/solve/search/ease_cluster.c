@@ -68,7 +68,9 @@ static bool descend(sunder_i_search *s)
     const double before = sunder_i_search_cost(s, s->t);
     s->prices_tight = false;
     s->settled = EASED;
-    if (!(before > 0 && sunder_i_search_keep_margins(s))) return false;
+    if (!(before > 0)) return false;
+    /* Where there is no room for margins, the exact check decides. */
+    if (!sunder_i_search_keep_margins(s) && sunder_i_search_find_clashes(s, s->t) > s->tolerance) return false;
     s->prices_tight = s->fully;
     s->program.n = 0;
     return sunder_i_search_descend(s) && sunder_i_search_cost(s, s->t) < before * (1 - CHEAPER);
