@@ -9,7 +9,8 @@ headings() { sed -n '/^\.SH OPTIONS/,/^\.SH [A-Z]/ s/^\.B \(\\-.*\)/\1/p' "$1" |
 sed -n '/^\.SH OPTIONS/,$ p' "$page" | sed '1! { /^\.SH/,$ d }' >options
 headings options >page.txt
 for command in separate check sum pair buffer route plan merge; do
-    "$SUNDER" $command --help >help
+    # a group of options on one line stands behind its title
+    "$SUNDER" $command --help | sed 's/^\([A-Z][^:]*:\) --/\1\n  --/' >help
     # Either one option per line, with its explanation after two blanks or more, or several per line, with commas.
     sed -n '/^Options/,/^Features\|^Which/ p' help | sed -n 's/^  \(--[a-z-]*\( [^ ]*\)\{0,1\}\)  *.*$/\1/p' | sed 's/ *$//' >own
     while read -r option; do

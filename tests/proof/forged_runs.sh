@@ -61,6 +61,7 @@ forge_generated() {
     forged through houses.gpkg --gap 1 --max-shift 1 --no-blocks --barrier through.gpkg
     forged free houses.gpkg --gap 2 --no-blocks
     forged side wall.gpkg --no-blocks --fixed-where 'w = 1 AND fid = 2' --barrier side.gpkg
+    forged pressed pressed.gpkg --no-blocks --max-shift 5 --fixed-where 'fid = 2' --barrier pressing.gpkg
     forged wedge wedged.gpkg --max-shift 5 --barrier wedge.gpkg
     forged aside wedged.gpkg --max-shift 1 --barrier bow.gpkg
     forged bend bent.gpkg --gap 1 --max-shift 1 --barrier bend.gpkg,side=no --barrier edge.gpkg,side=no

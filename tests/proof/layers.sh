@@ -4,6 +4,8 @@
 make_side() {
     printf 'WKT,w\n"LINESTRING(9.5 -3,9.5 13)",1\n' | layer side.gpkg side LINESTRING
     printf 'WKT,w\n"POLYGON((0 0,10 0,10 10,0 10))",1\n"POLYGON((-10 -30,0 -30,0 40,-10 40))",1\n' | layer wall.gpkg buildings POLYGON
+    printf 'WKT,w\n"LINESTRING(1.5 -30,1.5 40)",1\n' | layer pressing.gpkg pressing LINESTRING
+    printf 'WKT,w\n"POLYGON((0 0,2 0,2 2,0 2))",1\n"POLYGON((-10 -30,1 -30,1 40,-10 40))",1\n' | layer pressed.gpkg buildings POLYGON
 }
 
 make_corners() {

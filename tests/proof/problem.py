@@ -275,6 +275,7 @@ class Problem:
     def demand_owed(self, a, b):
         """Are the two required to keep the gap, in every placement that the bound is about?"""
         demand(a in self.things and b in self.things, "there is no", a, "or", b)
+        demand(not self.is_hidden(a) and not self.is_hidden(b), a, "or", b, "is hidden, and owes nothing")
         demand(self.may_move(a) or self.may_move(b), "neither", a, "nor", b, "moves")
         demand(b not in self.block(a), a, "and", b, "are of one block")
         demand(a not in self.skipped and b not in self.skipped, a, "or", b, "is ignored, or nothing")

@@ -123,7 +123,7 @@ OPTIONS = (
            "Otherwise they are, unmoved, with 1 in sunder_inv.", False),
     Option("--trim", FLAG, LAYERS, "Cut features back at barriers where there is no room",
            "As little as possible, and before any is left out. Needs barriers.", False),
-    Option("--trim-keep", NUMBER, LAYERS, "Least share of its area that a feature keeps",
+    Option("--trim-keep", NUMBER, LAYERS, "Least share of area that a feature keeps",
            "From 0 to 1. A feature that would keep less is not cut.", 0.5),
     Option("--min-size", LENGTH, LAYERS, "Least size of what remains of a feature",
            "The diameter of a disc that fits into it."),
