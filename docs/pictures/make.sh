@@ -77,6 +77,17 @@ draw front_plain 87 26 --gap 1 --max-shift 3 --barrier scene.gpkg,layer=roads,wi
 rm out.gpkg
 draw front 87 26 --gap 1 --max-shift 3 --barrier scene.gpkg,layer=roads,width=7
 
+# A terrace on a drawn road is cut back, a house that keeps too little is left out, and one makes room.
+scene town.gpkg
+{
+    for k in 0 1 2 3 4; do box house $((8 + 8 * k)) $((9 + k % 2)) $((16 + 8 * k)) 20; done
+    box house 52 5 60 10
+    box house 56 10.5 66 20
+} | layer buildings POLYGON
+printf 'main_street\tLINESTRING (-10 6, 100 6)\n' | layer roads LINESTRING 8
+rm -f out.gpkg
+draw cut 74 26 --gap 1 --max-shift 0.6 --hide --trim --barrier scene.gpkg,layer=roads,width=8
+
 # A piece of the town for a map at 1:25 000: roads 0.3 mm wide, 0.1 mm of paper between.
 sunder separate --quiet --allow-conflicts -l buildings --scale 25000 --gap 0.1mm --max-shift 0.4mm \
     --barrier town.gpkg,layer=roads,width=0.3mm --overwrite town.gpkg out.gpkg
