@@ -7,13 +7,12 @@ and of neighbours in a terrace, whether their common wall remains one up to a mi
 
 import json
 import math
-import os
 import random
 import subprocess
 import sys
 from fractions import Fraction
 
-from shapely.geometry import LineString, Polygon, shape
+from osgeo import ogr
 
 GAP, KEEP, LIMIT = 1, 0.3, 0.25
 
@@ -71,6 +70,22 @@ def lies_in(inner, outer):
     return True
 
 
+def geometry(kind, points):
+    made = ogr.Geometry(kind)
+    for x, y in points:
+        made.AddPoint_2D(float(x), float(y))
+    if kind != ogr.wkbLinearRing:
+        return made
+    polygon = ogr.Geometry(ogr.wkbPolygon)
+    made.CloseRings()
+    polygon.AddGeometry(made)
+    return polygon
+
+
+def area(shape):
+    return shape.Area() if shape.GetDimension() == 2 else 0
+
+
 def collection(items):
     return {"type": "FeatureCollection", "features": items}
 
@@ -88,16 +103,16 @@ def check(house, road, row, moved):
     """Checks one feature that became smaller; `moved` is its ring as written, back at its place."""
     if not lies_in(moved, house):
         fail(f"{row}: does not lie in what it was")
-    now, was = Polygon(moved), Polygon(house)
-    if now.area < KEEP * was.area:
-        fail(f"{row}: keeps {now.area / was.area}")
-    left = was
+    now, left = geometry(ogr.wkbLinearRing, moved).Area(), geometry(ogr.wkbLinearRing, house)
+    if now < KEEP * left.Area():
+        fail(f"{row}: keeps {now / left.Area()}")
     for line, width in road:
-        left = left.difference(LineString(line).buffer(width / 2 + GAP, resolution=64))
-    parts = list(left.geoms) if hasattr(left, "geoms") else [left]
-    largest = max(part.area for part in parts)
-    if now.area > largest * (1 + 1e-3) or now.area < largest * 0.97 - 0.1:
-        fail(f"{row}: area {now.area}, and GEOS leaves {largest}")
+        left = left.Difference(geometry(ogr.wkbLineString, line).Buffer(width / 2 + GAP, 64))
+    several = left.GetGeometryType() != ogr.wkbPolygon
+    parts = [left.GetGeometryRef(i) for i in range(left.GetGeometryCount())] if several else [left]
+    largest = max(part.Area() for part in parts)
+    if now > largest * (1 + 1e-3) or now < largest * 0.97 - 0.1:
+        fail(f"{row}: area {now}, and GEOS leaves {largest}")
 
 
 def main():
@@ -120,30 +135,30 @@ def main():
     run = [sunder, "separate", "trim_houses.gpkg", "trim_o.gpkg", "--overwrite", "--hide", "--hide-weight", "1", "-q"]
     subprocess.run(run + rules + ["--stats", "trim.json"], check=True)
     stats = json.load(open("trim.json"))
-    rows = subprocess.run(["ogr2ogr", "-f", "GeoJSON", "-lco", "COORDINATE_PRECISION=17", "-lco", "RFC7946=NO",
-                           "/vsistdout/", "trim_o.gpkg", "trim_houses"], capture_output=True, text=True, check=True)
     smaller, now = 0, {}
-    for item in json.loads(rows.stdout)["features"]:
-        row = item["properties"]
+    source = ogr.Open("trim_o.gpkg")
+    for item in source.GetLayer("trim_houses"):
+        row = item.items()
         ring, k = houses[row["n"]]
         if row["sunder_inv"]:
             continue
-        written = shape(item["geometry"])
+        written = item.GetGeometryRef().Clone()
         now[row["n"]] = written
         for line, width, world in roads:
-            if world == k and written.distance(LineString(line)) < width / 2 + GAP - 1e-9:
+            if world == k and written.Distance(geometry(ogr.wkbLineString, line)) < width / 2 + GAP - 1e-9:
                 fail(f"{row}: too near to a road")
         if not row["sunder_lvl"]:
             continue
         smaller += 1
         dx, dy = row["sunder_dx"], row["sunder_dy"]
-        moved = [(Fraction(x) - Fraction(dx), Fraction(y) - Fraction(dy)) for x, y in written.exterior.coords[:-1]]
+        points = written.GetGeometryRef(0).GetPoints()[:-1]
+        moved = [(Fraction(x) - Fraction(dx), Fraction(y) - Fraction(dy)) for x, y, *_ in points]
         check(ring, [(line, width) for line, width, world in roads if world == k], row, moved)
     if smaller < worlds or smaller != stats["shrunk"]["trimmed"] or any(stats["conflicts"]["after"][kind] for kind in (
             "overlap", "too_close", "barrier", "barrier_drawn", "barrier_near")):
         fail(f"{smaller} became smaller: {stats['shrunk']}, {stats['conflicts']}")
     for a, b in pairs:
-        if a in now and b in now and (now[a].distance(now[b]) > 1e-6 or now[a].intersection(now[b]).area > 1e-6):
+        if a in now and b in now and (now[a].Distance(now[b]) > 1e-6 or area(now[a].Intersection(now[b])) > 1e-6):
             fail(f"houses {a} and {b}: the common wall is gone")
     found = subprocess.run([sunder, "check", "trim_o.gpkg", "--input-layer", "trim_houses", "--before",
                             "trim_houses.gpkg", "--no-blocks", "--block-field", "sunder_blk", "--hidden-field",
