@@ -85,7 +85,7 @@ static sunder_status prepare_search(sunder_i_solver *s, sunder_error *err)
 
 /* Leaves out the features that are hidden, by the caller's numbers, with their edges of rows, and gives the others the
  * shapes that they have now. */
-static sunder_status lower(sunder_i_solver *s, const bool *hidden, sunder_error *err)
+static sunder_status lower_features(sunder_i_solver *s, const bool *hidden, sunder_error *err)
 {
     bool *own = hidden ? sunder_i_alloc(s->model.features, sizeof *own) : NULL;
     if (hidden && !own) return sunder_i_failure_cause(err);
@@ -104,7 +104,7 @@ static sunder_status find_moves(sunder_i_solver *s, const sunder_layer *layer, c
     sunder_status status = read_layer(s, layer, options, TO_SEPARATE, report, err);
     const bool rows = !status && s->model.rules.rows;
     if (rows) status = sunder_i_rows_find(&s->model, &s->rows, err);
-    if (!status && hidden) status = lower(s, hidden, err);
+    if (!status && hidden) status = lower_features(s, hidden, err);
     if (!status) status = sunder_i_solver_begin_holding(s, err);
     if (!status) status = sunder_i_solver_find_infeasible(s, NULL, err);
     if (!status) status = prepare_search(s, err);
@@ -149,7 +149,7 @@ static sunder_status answer_question(const sunder_layer *layer, const sunder_lay
     sunder_report *report = NULL;
     sunder_status status = read_layer(s, layer, options, TO_ANSWER, &report, err);
     sunder_report_free(report);
-    if (!status && layer->at_level) status = lower(s, NULL, err);
+    if (!status && layer->at_level) status = lower_features(s, NULL, err);
     if (!status && *proof == SUNDER_I_PROOF_LATER) return prepare_for_proofs(s, spared, err);
     if (!status) status = sunder_i_solver_find_infeasible(s, spared, err);
     if (status) return status;

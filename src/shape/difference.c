@@ -41,7 +41,7 @@ static bool take_rings(const sunder_shape *shape, const sunder_i_cuts *cuts, sun
 /* The farthest neighbour that is tried in place of the nearest double, in units of the last place along each axis. */
 enum { FARTHEST = 3 };
 
-static double step(double v, int ulps)
+static double next_double(double v, int ulps)
 {
     for (; ulps > 0; ulps--) v = nextafter(v, INFINITY);
     for (; ulps < 0; ulps++) v = nextafter(v, -INFINITY);
@@ -57,7 +57,7 @@ static bool round_inward(const double *a, const double *b, double xy[2])
     double best = INFINITY;
     for (int i = -FARTHEST; i <= FARTHEST; i++)
         for (int j = -FARTHEST; j <= FARTHEST; j++) {
-            const sunder_point at = {step(was[0], i), step(was[1], j)};
+            const sunder_point at = {next_double(was[0], i), next_double(was[1], j)};
             const double off = hypot(at.x - was[0], at.y - was[1]);
             if (off >= best || sunder_orient(&from, &to, &at) < 0) continue;
             best = off;

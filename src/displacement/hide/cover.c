@@ -13,6 +13,7 @@
  * Among best choices the one is taken that gives the first features the greater levels: each feature is asked, in their
  * order, whether a choice of the same cost gives it the level, with those already decided. */
 #include "displacement/hide/cover.h"
+#include "displacement/hide/cost_vectors.h"
 
 #include "base/union_find.h"
 
@@ -65,18 +66,6 @@ bool sunder_i_is_hidden_at(const sunder_layer *layer, size_t feature, uint32_t l
 
 /* ---- Costs ------------------------------------------------------------------------------------------------------- */
 
-static int compare(const int64_t *p, const int64_t *q, size_t n)
-{
-    for (size_t k = 0; k < n; k++)
-        if (p[k] != q[k]) return p[k] < q[k] ? -1 : 1;
-    return 0;
-}
-
-static void add(int64_t *sum, const int64_t *term, int64_t sign, size_t n)
-{
-    for (size_t k = 0; k < n; k++) sum[k] += sign * term[k];
-}
-
 static int64_t *cost_of(const component *c, uint32_t f, uint32_t level)
 {
     return c->cost + c->columns * ((size_t)c->row[f] + level);
@@ -100,7 +89,7 @@ static const int64_t *least_rest(const component *c, uint32_t place)
     const uint32_t f = c->member[place];
     const int64_t *least = rest_of(c, f, c->above[place]);
     for (uint32_t k = c->above[place] + 1; k <= c->high[f]; k++)
-        if (compare(rest_of(c, f, k), least, c->columns) < 0) least = rest_of(c, f, k);
+        if (sunder_i_costs_cmp(rest_of(c, f, k), least, c->columns) < 0) least = rest_of(c, f, k);
     return least;
 }
 
@@ -111,7 +100,7 @@ static void bound_of(component *c)
     memcpy(c->rest, c->cost, c->row[c->features] * n * sizeof *c->rest);
     for (uint32_t f = 0; f < c->features; f++)
         for (uint32_t k = c->low[f]; k <= c->high[f] && c->low[f]; k++)
-            add(rest_of(c, f, k), cost_of(c, f, c->low[f]), -1, n);
+            sunder_i_costs_add(rest_of(c, f, k), cost_of(c, f, c->low[f]), -1, n);
     memcpy(c->least, c->spent, n * sizeof *c->least);
     for (size_t k = 0; k < c->clauses; k++) {
         if (c->met_n[k]) continue;
@@ -119,14 +108,14 @@ static void bound_of(component *c)
         for (uint32_t m = c->first[k]; m < c->first[k + 1]; m++) {
             if (!is_free(c, m)) continue;
             const int64_t *rest = least_rest(c, m);
-            if (!y || compare(rest, y, n) < 0) y = rest;
+            if (!y || sunder_i_costs_cmp(rest, y, n) < 0) y = rest;
         }
         if (!y) continue;
         memcpy(c->value, y, n * sizeof *y);
-        add(c->least, c->value, 1, n);
+        sunder_i_costs_add(c->least, c->value, 1, n);
         for (uint32_t m = c->first[k]; m < c->first[k + 1]; m++)
             for (uint32_t level = c->above[m]; is_free(c, m) && level <= c->high[c->member[m]]; level++)
-                add(rest_of(c, c->member[m], level), c->value, -1, n);
+                sunder_i_costs_add(rest_of(c, c->member[m], level), c->value, -1, n);
     }
 }
 
@@ -168,10 +157,10 @@ static bool decide(component *c, uint32_t f, uint32_t low, uint32_t high)
     }
     c->trail[c->decided++] = (range){f, c->low[f], c->high[f]};
     count_places(c, f, false);
-    add(c->spent, cost_of(c, f, c->low[f]), -1, c->columns);
+    sunder_i_costs_add(c->spent, cost_of(c, f, c->low[f]), -1, c->columns);
     c->low[f] = low;
     c->high[f] = high;
-    add(c->spent, cost_of(c, f, low), 1, c->columns);
+    sunder_i_costs_add(c->spent, cost_of(c, f, low), 1, c->columns);
     count_places(c, f, true);
     return list_units(c, f);
 }
@@ -196,10 +185,10 @@ static void undo(component *c, size_t decided)
         const range *was = &c->trail[--c->decided];
         const uint32_t f = was->feature;
         count_places(c, f, false);
-        add(c->spent, cost_of(c, f, c->low[f]), -1, c->columns);
+        sunder_i_costs_add(c->spent, cost_of(c, f, c->low[f]), -1, c->columns);
         c->low[f] = was->low;
         c->high[f] = was->high;
-        add(c->spent, cost_of(c, f, c->low[f]), 1, c->columns);
+        sunder_i_costs_add(c->spent, cost_of(c, f, c->low[f]), 1, c->columns);
         count_places(c, f, true);
     }
 }
@@ -234,7 +223,7 @@ static bool is_hopeless(component *c)
 {
     if (!c->found && !c->first_only) return false;
     bound_of(c);
-    const int order = compare(c->least, c->best, c->columns);
+    const int order = sunder_i_costs_cmp(c->least, c->best, c->columns);
     return c->first_only ? order > 0 || c->found : order >= 0;
 }
 

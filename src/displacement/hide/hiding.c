@@ -5,8 +5,8 @@
  *             choose the cheapest levels such that each clause has a member with a greater one
  *     until   no conflict remains that a clause can be made of
  *
- * At first everything has its smallest shape. The clauses of these rounds say what has to be hidden whatever becomes
- * smaller; then shapes are as given, and the clauses say what has to become smaller.
+ * In the first rounds all features have their smallest shapes. So the clauses of these rounds can be satisfied only by
+ * hiding features. In the later rounds shapes are as given, and the clauses say which features have to become smaller.
  *
  * A proof that features have no solution together with their levels holds with lesser levels, too, since each shape of
  * a feature lies in the one before. It holds whatever else is hidden or becomes smaller, since blocks, limits, anchors,
@@ -255,7 +255,7 @@ static sunder_i_hiding_step step_after(const sunder_i_hiding *h, bool conflicts)
     return h->step == SUNDER_I_HIDING_PROVE ? SUNDER_I_HIDING_THOROUGH : SUNDER_I_HIDING_END;
 }
 
-static sunder_status choose(sunder_i_hiding *h, sunder_error *err)
+static sunder_status choose_levels(sunder_i_hiding *h, sunder_error *err)
 {
     sunder_i_cover_result result = {.level = h->level};
     const sunder_status status =
@@ -275,9 +275,9 @@ sunder_status sunder_i_hiding_learn(sunder_i_hiding *hiding, const sunder_i_mode
         ok = add_tentative(hiding, model, number, report, &learnt);
     if (!ok) return sunder_i_failure_cause(err);
     hiding->step = learnt ? SUNDER_I_HIDING_QUICK : step_after(hiding, sunder_i_hiding_conflicts(report) > 0);
-    if (learnt) return choose(hiding, err);
+    if (learnt) return choose_levels(hiding, err);
     if (hiding->step != SUNDER_I_HIDING_END || !hiding->smallest) return SUNDER_OK;
     hiding->smallest = false;
     hiding->step = SUNDER_I_HIDING_QUICK;
-    return choose(hiding, err);
+    return choose_levels(hiding, err);
 }

@@ -11,6 +11,7 @@
  * A tree is written in preorder. The shares are greedy: that of each clause in turn is the least that its members have
  * left. */
 #include "displacement/hide/hiding_bound.h"
+#include "displacement/hide/cost_vectors.h"
 
 #include "base/list.h"
 #include "base/union_find.h"
@@ -39,18 +40,6 @@ typedef struct branching {
     size_t left;                                     /* nodes that may still be divided */
     sunder_i_hiding_bound *out;
 } branching;
-
-static int compare(const int64_t *p, const int64_t *q, size_t n)
-{
-    for (size_t k = 0; k < n; k++)
-        if (p[k] != q[k]) return p[k] < q[k] ? -1 : 1;
-    return 0;
-}
-
-static void add(int64_t *sum, const int64_t *term, int64_t sign, size_t n)
-{
-    for (size_t k = 0; k < n; k++) sum[k] += sign * term[k];
-}
 
 /* Of feature f, numbered within the component. */
 static int64_t *cost_of(const branching *b, uint32_t f, uint32_t level)
@@ -121,13 +110,13 @@ static bool give_share(branching *b, size_t number)
             const member m = member_of(b, clause, k);
             for (uint32_t level = m.level + 1; is_free(b, m) && level <= b->high[m.f]; level++)
                 if (taken)
-                    add(rest_of(b, m.f, level), b->share, -1, b->classes);
-                else if (!least || compare(rest_of(b, m.f, level), least, b->classes) < 0)
+                    sunder_i_costs_add(rest_of(b, m.f, level), b->share, -1, b->classes);
+                else if (!least || sunder_i_costs_cmp(rest_of(b, m.f, level), least, b->classes) < 0)
                     least = rest_of(b, m.f, level);
         }
         if (!taken) memcpy(b->share, least, b->classes * sizeof *least);
     }
-    add(b->value, b->share, 1, b->classes);
+    sunder_i_costs_add(b->value, b->share, 1, b->classes);
     return put_shares(b, number, b->share);
 }
 
@@ -139,7 +128,7 @@ static void begin_shares(branching *b)
     memcpy(b->rest, b->cost, b->features * LEVELS * b->classes * sizeof *b->rest);
     for (uint32_t f = 0; f < b->features; f++)
         for (uint32_t level = b->low[f]; b->low[f] && level <= b->high[f]; level++)
-            add(rest_of(b, f, level), cost_of(b, f, b->low[f]), -1, b->classes);
+            sunder_i_costs_add(rest_of(b, f, level), cost_of(b, f, b->low[f]), -1, b->classes);
 }
 
 /* Gives all clauses their shares, those that only one feature may satisfy first. Sets *unmet to a clause that no
@@ -184,7 +173,7 @@ static bool choose_split(const branching *b, member *split)
 
 static bool put_leaf(branching *b, size_t shares)
 {
-    if (!b->any || compare(b->value, b->least, b->classes) < 0)
+    if (!b->any || sunder_i_costs_cmp(b->value, b->least, b->classes) < 0)
         memcpy(b->least, b->value, b->classes * sizeof *b->least);
     b->any = true;
     return put_node(
@@ -199,7 +188,7 @@ static bool write_tree(branching *b)
     member split;
     if (!give_shares(b, &unmet)) return false;
     if (unmet == SIZE_MAX &&
-        (b->left == 0 || compare(b->value, b->target, b->classes) >= 0 || !choose_split(b, &split)))
+        (b->left == 0 || sunder_i_costs_cmp(b->value, b->target, b->classes) >= 0 || !choose_split(b, &split)))
         return put_leaf(b, shares);
     b->out->shares = shares;
     if (unmet != SIZE_MAX) return put_node(b, (sunder_hiding_node){.kind = SUNDER_HIDING_NODE_UNMET, .clause = unmet});
@@ -208,12 +197,12 @@ static bool write_tree(branching *b)
     bool ok = put_node(b, (sunder_hiding_node){
                               .kind = SUNDER_HIDING_NODE_SPLIT, .feature = b->feature[split.f], .level = split.level});
     b->low[split.f] = split.level;
-    add(b->spent, cost_of(b, split.f, split.level), 1, b->classes);
-    add(b->spent, cost_of(b, split.f, low), -1, b->classes);
+    sunder_i_costs_add(b->spent, cost_of(b, split.f, split.level), 1, b->classes);
+    sunder_i_costs_add(b->spent, cost_of(b, split.f, low), -1, b->classes);
     ok = ok && write_tree(b);
     b->low[split.f] = low;
-    add(b->spent, cost_of(b, split.f, low), 1, b->classes);
-    add(b->spent, cost_of(b, split.f, split.level), -1, b->classes);
+    sunder_i_costs_add(b->spent, cost_of(b, split.f, low), 1, b->classes);
+    sunder_i_costs_add(b->spent, cost_of(b, split.f, split.level), -1, b->classes);
     b->high[split.f] = split.level - 1;
     ok = ok && write_tree(b);
     b->high[split.f] = high;
@@ -325,7 +314,7 @@ static bool bound_component(const sunder_i_clauses *clauses, const placed *list,
 
 /* Can this clause be satisfied by nothing but a hidden member, by a proof? The others bind no hidden weight: with the
  * smallest shapes all of them are satisfied. */
-static bool counts(const sunder_i_clauses *clauses, const sunder_i_clause *c, const sunder_layer *layer)
+static bool binds_hiding(const sunder_i_clauses *clauses, const sunder_i_clause *c, const sunder_layer *layer)
 {
     if (!c->proved || c->n == 0) return false;
     for (size_t m = c->first; m < c->first + c->n; m++)
@@ -345,7 +334,7 @@ sunder_status sunder_i_hiding_bound_find(const sunder_i_clauses *clauses, const 
     if (ok) sunder_i_union_init(parent, features);
     for (size_t k = 0; k < clauses->n && ok; k++) {
         const sunder_i_clause *c = &clauses->clause[k];
-        if (!counts(clauses, c, layer)) continue;
+        if (!binds_hiding(clauses, c, layer)) continue;
         list[n++] = (placed){0, (uint32_t)c->n, (uint32_t)k};
         for (size_t m = 1; m < c->n; m++)
             sunder_i_union_join(parent, clauses->item[c->first], clauses->item[c->first + m]);

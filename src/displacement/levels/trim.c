@@ -184,7 +184,7 @@ static sunder_status index_pieces(trimmer *t, sunder_error *err)
     return status;
 }
 
-static sunder_status prepare(trimmer *t, const sunder_i_rules *rules, sunder_error *err)
+static sunder_status prepare_trimmer(trimmer *t, const sunder_i_rules *rules, sunder_error *err)
 {
     const double pi = acos(-1), circumradius = 1 / cos(pi / ROUND_CORNERS);
     for (size_t k = 0; k < ROUND_CORNERS; k++) {
@@ -208,7 +208,7 @@ sunder_status sunder_layer_trim(const sunder_layer *layer, const sunder_layer_op
     sunder_i_rules rules;
     for (size_t f = 0; f < layer->n; f++) shape[f] = NULL;
     sunder_status status = sunder_i_rules_of(options, &rules, err);
-    if (!status) status = prepare(&t, &rules, err);
+    if (!status) status = prepare_trimmer(&t, &rules, err);
     if (!status) status = sunder_i_parallel(rules.threads, layer->n, SUNDER_I_GRAIN_SHAPES, trim_some, &t, err);
     for (size_t f = 0; f < layer->n && status; f++) {
         sunder_shape_free(shape[f]);
