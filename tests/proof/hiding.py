@@ -41,18 +41,7 @@ class Clause(Verdict):
         self.alone = self.crowded = False
 
     def check(self):
-        seen, todo = set(), [(0, ())]
-        while todo:
-            at, way_here = todo.pop()
-            index(at, len(self.nodes), "node")
-            demand(at not in seen, "a node has two parents:", at)
-            seen.add(at)
-            node = self.nodes[at]
-            if "ways" not in node:
-                self.check_leaf(node, way_here)
-                continue
-            self.check_question(node)
-            todo += [(w["next"], (*way_here, (at, k))) for k, w in enumerate(node["ways"])]
+        self.check_tree()
 
     def is_joint(self):
         return self.told["reason"] == "no_room" or self.told.get("crowded", False)
