@@ -29,7 +29,7 @@ typedef struct gis_layer_rules {
     double trim_keep;
     bool trim_crossed; /* also features that a line of a barrier crosses */
     gis_optional_length min_size;
-    const char *rigid_where; /* SQL: the shapes of these features never change */
+    const char *rigid_where; /* SQL: features that are not cut back */
     const char *hierarchy_field;
     const char *hidden_field; /* of a result: which features are hidden */
     gis_weighting hide_weighting;

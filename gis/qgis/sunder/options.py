@@ -117,7 +117,7 @@ OPTIONS = (
     Option("--hierarchy-field", NUMERIC_FIELD, LAYERS, "Field: how important features are that may be left out",
            "0: never left out; 1: the most important others; null: the least important of all."),
     Option("--hide-weight", CHOICE, ("separate",), "Weight of what is left out, within its class",
-           "The sum of these weights is made small, the most important class first.",
+           "As little weight as possible is left out, the most important class first.",
            2, ("1", "area", "sqrt-area"), ("1 for each feature", "Its area", "The square root of its area")),
     Option("--drop-hidden", FLAG, ("separate",), "Features that are left out are not in the result",
            "Otherwise they are, unmoved, with 1 in sunder_inv.", False),
