@@ -32,6 +32,16 @@ typedef struct sunder_hiding_cost {
 SUNDER_EXPERIMENTAL sunder_status sunder_layer_set_hiding(sunder_layer *layer, const sunder_hiding_cost *cost,
                                                           sunder_error *err);
 
+/* What becomes of a feature that a line or point of a barrier crosses: that meets its interior as it is given. */
+typedef enum sunder_crossed {
+    SUNDER_CROSSED_HIDE, /* it owes the barrier the same as all others, and is not cut back */
+    SUNDER_CROSSED_TRIM, /* it owes the same, and may be cut back to one side of the line */
+    SUNDER_CROSSED_KEEP  /* it may not stand worse beside the barrier than at home, and owes it nothing else: its
+                          * conflict has the reason SUNDER_REASON_KEPT, and nothing is hidden or smaller for it */
+} sunder_crossed;
+/* Sets it for all features of the layer; SUNDER_CROSSED_HIDE is the default. */
+SUNDER_EXPERIMENTAL void sunder_layer_set_crossed(sunder_layer *layer, sunder_crossed crossed);
+
 /* A smaller shape that a feature may have. */
 typedef struct sunder_level {
     const sunder_shape *shape; /* remains the caller's, and must outlive the layer; it lies in the shape before it */
@@ -51,13 +61,13 @@ SUNDER_EXPERIMENTAL sunder_status sunder_layer_set_levels(sunder_layer *layer, c
 typedef struct sunder_trimming {
     double keep;  /* the least share of its area that a feature keeps, from 0 to 1 */
     double width; /* >= 0; a disc of this diameter lies in what remains */
-    bool crossed; /* also features that a line of a barrier crosses: one side remains */
 } sunder_trimming;
 
 /* Cuts features back to the largest polygon of what is as far from all barriers as they have to be; with
  * the gap of the options. shape: [n] becomes, for each feature that is cut and meets the conditions, a new shape that
  * lies in it and that the caller frees; NULL for all others. Ignored features, those without a polygon and those with
- * corners that are not doubles are not cut. Fails with SUNDER_ENOMEM or SUNDER_ECANCEL; all shapes are then NULL. */
+ * corners that are not doubles are not cut. sunder_layer_set_crossed() says whether crossed features are; those that
+ * are kept are cut back at other barriers. Fails with SUNDER_ENOMEM or SUNDER_ECANCEL; all shapes are then NULL. */
 SUNDER_EXPERIMENTAL sunder_status sunder_layer_trim(const sunder_layer *layer, const sunder_layer_options *options,
                                                     const sunder_trimming *trimming, sunder_shape **shape,
                                                     sunder_error *err);

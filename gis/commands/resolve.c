@@ -37,6 +37,14 @@ static const char *invalid_word(unsigned i) { return gis_invalid_string((gis_inv
 static const char *weighting_word(unsigned i) { return gis_weighting_string((gis_weighting)i); }
 static const char *containment_word(unsigned i) { return sunder_containment_string((sunder_containment)i); }
 
+/* The words of sunder_crossed. */
+static const char *crossed_word(unsigned i)
+{
+    static const char *const words[] = {
+        [SUNDER_CROSSED_HIDE] = "hide", [SUNDER_CROSSED_TRIM] = "trim", [SUNDER_CROSSED_KEEP] = "keep"};
+    return i < sizeof words / sizeof *words ? words[i] : "";
+}
+
 static bool resolve_invalid(const gis_options *options, gis_invalid_policy *out, gis_error *error)
 {
     unsigned policy;
@@ -157,6 +165,16 @@ static bool resolve_ease(const gis_options *options, double *ease, gis_error *er
 /* The share that a trimmed feature keeps unless --trim-keep gives one. */
 static const double usual_share_kept = 0.5;
 
+/* Says what becomes of features that a barrier's line crosses, if features may be hidden or become smaller. */
+static bool resolve_crossed(const gis_options *options, gis_layer_rules *out, gis_error *error)
+{
+    unsigned crossed = SUNDER_CROSSED_HIDE;
+    if (!out->hide && !options->given[OPT_TRIM] && !out->hidden_field) return true;
+    if (!resolve_choice(options, OPT_CROSSED, crossed_word, &crossed, error)) return false;
+    out->crossed = (sunder_crossed)crossed;
+    return true;
+}
+
 /* What features may become if they have no room. What does not work together with that is refused. */
 static bool resolve_room(const gis_options *options, gis_layer_rules *out, gis_error *error)
 {
@@ -169,7 +187,6 @@ static bool resolve_room(const gis_options *options, gis_layer_rules *out, gis_e
     out->trim = options->given[OPT_TRIM] && options->command->bit != GIS_CHECK; /* see gis_resolve_original() */
     out->trim_keep = options->given[OPT_TRIM_KEEP] ? options->number[OPT_TRIM_KEEP] : usual_share_kept;
     out->min_size = gis_resolve_length(options, OPT_MIN_SIZE);
-    out->trim_crossed = options->text[OPT_CROSSED] && strcmp(options->text[OPT_CROSSED], "trim") == 0;
     out->rigid_where = options->text[OPT_RIGID_WHERE];
     for (size_t i = 0; (out->hide || out->trim) && i < sizeof not_with / sizeof *not_with; i++)
         if (options->given[not_with[i]])
@@ -183,7 +200,7 @@ static bool resolve_room(const gis_options *options, gis_layer_rules *out, gis_e
     if (options->given[OPT_HIDE_WEIGHT] && !resolve_choice(options, OPT_HIDE_WEIGHT, weighting_word, &weighting, error))
         return false;
     out->hide_weighting = (gis_weighting)weighting;
-    return true;
+    return resolve_crossed(options, out, error);
 }
 
 static bool resolve_rules(const gis_options *options, gis_layer_rules *out, gis_error *error)

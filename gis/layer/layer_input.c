@@ -119,6 +119,7 @@ static bool make_layer(gis_layer_input *input, gis_error *error)
         return gis_core_failed(error, "--barrier", &why);
     if (sunder_layer_set_rows(input->layer, input->row, &why) != SUNDER_OK)
         return gis_core_failed(error, "--rows", &why);
+    sunder_layer_set_crossed(input->layer, input->request->rules.crossed);
     return gis_layer_set_hiding(input, error) && gis_layer_set_smaller(input, error) && set_sides(input, error);
 }
 

@@ -3,7 +3,7 @@
 #define GIS_LAYER_RULES_H
 
 #include "base/length.h"
-#include "sunder.h"
+#include "sunder_hiding.h"
 
 /* --weight */
 typedef enum gis_weighting { GIS_WEIGHTING_EVEN, GIS_WEIGHTING_AREA, GIS_WEIGHTING_SQRT_AREA } gis_weighting;
@@ -27,7 +27,7 @@ typedef struct gis_layer_rules {
     bool hide, drop_hidden; /* features may be left out; by the classes in this field, and this weight */
     bool trim; /* features may be cut back at barriers, but keep this share of their area, and a disc of this size */
     double trim_keep;
-    bool trim_crossed; /* also features that a line of a barrier crosses */
+    sunder_crossed crossed; /* what becomes of features that a line of a barrier crosses */
     gis_optional_length min_size;
     const char *rigid_where; /* SQL: features that are not cut back */
     const char *hierarchy_field;

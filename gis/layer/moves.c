@@ -211,6 +211,7 @@ static bool make_layers(pairing *p, gis_error *error)
         sunder_layer_set_barriers(m->before, barriers->barrier, barriers->n, &why) != SUNDER_OK ||
         sunder_layer_set_barriers(m->after, barriers->barrier, barriers->n, &why) != SUNDER_OK)
         return gis_core_failed(error, "--before", &why);
+    sunder_layer_set_crossed(m->before, m->original.request->rules.crossed);
     return set_rows(m, error) && gis_layer_set_levels(&m->original, m->matched, m->n, m->before, error) &&
            set_sides(m, error);
 }

@@ -60,7 +60,7 @@ bool gis_layer_set_levels(const gis_layer_input *input, const size_t *matched, s
 bool gis_layer_set_smaller(gis_layer_input *input, gis_error *error)
 {
     const gis_layer_rules *rules = &input->request->rules;
-    const sunder_trimming how = {rules->trim_keep, input->min_size, rules->trim_crossed};
+    const sunder_trimming how = {rules->trim_keep, input->min_size};
     sunder_error why;
     if (!rules->trim) return true;
     const sunder_layer_options core = gis_layer_core_options(input);

@@ -366,6 +366,7 @@ static sunder_status begin_comparison(comparison *c, const sunder_layer_options 
     if (!status) status = sunder_i_placement_init(&c->model, &c->placement, err);
     if (!status) status = sunder_i_placement_relate(&c->model, &c->placement, NULL, &c->start, err);
     if (!status) status = sunder_i_model_join(&c->model, &c->start, err);
+    if (!status) status = sunder_i_model_note_crossed(&c->model, &c->start, err);
     if (!status) status = mark_hidden(c, err);
     if (!status) status = prepare_model(c, err);
     if (status) return status;

@@ -53,6 +53,7 @@ static sunder_status read_layer(sunder_i_solver *s, const sunder_layer *layer, c
     s->model.standing = &s->placement.tree;
     if (!status) status = relate_features(s, what_for == TO_ANSWER, err);
     if (!status) status = sunder_i_model_join(&s->model, &s->start, err);
+    if (!status && what_for == TO_SEPARATE) status = sunder_i_model_note_crossed(&s->model, &s->start, err);
     if (!status) status = sunder_i_report_new(&s->model, report, err);
     if (status) return status;
     (*report)->summary.pairs_tested = s->start.tested;

@@ -21,7 +21,7 @@ command -v jq >/dev/null || { echo "skipped: no jq"; exit 77; }
     echo '"POLYGON((28.5 -1,29 -1,29 11,28.5 11,28.5 -1))",4'
     echo '"LINESTRING(105 -50,105 50)",5'
 } | layer walls.gpkg walls GEOMETRY
-words=(--gap 0.5 --max-shift 3 --rows no --no-blocks --barrier walls.gpkg)
+words=(--gap 0.5 --max-shift 3 --rows no --no-blocks --barrier walls.gpkg --crossed hide)
 
 expect 3 separate h.gpkg plain.gpkg "${words[@]}" --stats plain.json
 [ "$(jq .hidden plain.json)" = null ] || fail "figures of hidden features, though none are wanted"

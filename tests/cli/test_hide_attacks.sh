@@ -46,7 +46,8 @@ printf '%s\n' WKT,class '"POLYGON((0 0,20 0,20 30,0 30))",0' '"POLYGON((20.5 0,3
     layer church.gpkg houses POLYGON
 printf 'WKT,k\n"LINESTRING(10 -50,10 150)",1\n"LINESTRING(31 -50,31 15)",1\n"LINESTRING(21 -1,35 -1)",1\n"LINESTRING(21 11,35 11)",1\n' |
     layer roads.gpkg roads LINESTRING
-expect 3 separate church.gpkg o.gpkg --overwrite --no-blocks --gap 1 --max-shift 2 --fixed-where "class = 0" --hide --hierarchy-field class --barrier roads.gpkg --stats o.json
+expect 3 separate church.gpkg o.gpkg --overwrite --no-blocks --gap 1 --max-shift 2 --fixed-where "class = 0" --hide --crossed hide --hierarchy-field class \
+    --barrier roads.gpkg --stats o.json
 same "$(jq -c '.hidden | [.count, .components_proved]' o.json)" '[2,2]' "beside the church:"
 same "$(ogrinfo -q -sql 'SELECT fid_a, barrier, reason FROM houses_conflicts' o.gpkg | grep -c 'fid_a (Integer64) = 1')" 1 "the church in the road:"
 same "$(ogrinfo -q -sql "SELECT count(*) AS n FROM houses WHERE sunder_inv = 1 AND class = 0" o.gpkg | grep -c 'n (Integer) = 0')" 1 "hidden of class 0:"

@@ -17,7 +17,7 @@ words=(--gap 0.5 --max-shift 0.25 --rows no --barrier road.gpkg,width=6)
 # value FILE NAME FIELD: the value of a feature
 value() { ogr2ogr -f CSV /vsistdout/ "$1" houses -where "name = '$2'" -select "$3" -lco STRING_QUOTING=IF_NEEDED | tail -n 1; }
 
-expect 0 separate h.gpkg o.gpkg "${words[@]}" --hide --hide-weight 1 --trim --stats o.json
+expect 0 separate h.gpkg o.gpkg "${words[@]}" --hide --hide-weight 1 --trim --crossed hide --stats o.json
 same "$(jq -c '[.hidden.count, .hidden.lower_bound, .shrunk.trimmed]' o.json)" '[1,1,2]' "two can be cut:"
 same "$(jq -c '.shrunk.lower_bound == .shrunk.area_lost' o.json)" true "the bound of what is lost:"
 same "$(value o.gpkg on sunder_st),$(value o.gpkg on sunder_lvl)" "hidden,0" "the house on the road:"
@@ -28,7 +28,7 @@ case $(value o.gpkg right sunder_cut) in 0.15*) ;; *) fail "the share lost is $(
 
 # The house that the road crosses is cut only if that is asked for and it keeps enough; then nothing is hidden. --trim
 # alone hides nothing, ever.
-expect 0 separate h.gpkg k.gpkg "${words[@]}" --hide --hide-weight 1 --trim --trim-keep 0.05 --stats k.json
+expect 0 separate h.gpkg k.gpkg "${words[@]}" --hide --hide-weight 1 --trim --crossed hide --trim-keep 0.05 --stats k.json
 same "$(jq -c '[.hidden.count, .shrunk.trimmed]' k.json)" '[1,2]' "a smaller share:"
 expect 0 separate h.gpkg k.gpkg --overwrite "${words[@]}" --hide --hide-weight 1 --trim --trim-keep 0.05 --crossed trim --stats k.json
 same "$(jq -c '[.hidden.count, .shrunk.trimmed]' k.json)" '[0,3]' "the house that the road crosses:"
@@ -36,34 +36,34 @@ expect 0 separate h.gpkg k.gpkg --overwrite "${words[@]}" --hide --hide-weight 1
 same "$(jq -c '[.hidden.count, .shrunk.trimmed]' k.json)" '[1,2]' "a house that keeps too little:"
 expect 3 separate h.gpkg alone.gpkg "${words[@]}" --trim --stats alone.json
 same "$(jq -c '[.hidden.count, .shrunk.trimmed]' alone.json)" '[0,2]' "without --hide:"
-expect 0 separate h.gpkg m.gpkg "${words[@]}" --hide --hide-weight 1 --trim --min-size 9 --stats m.json
+expect 0 separate h.gpkg m.gpkg "${words[@]}" --hide --hide-weight 1 --trim --crossed hide --min-size 9 --stats m.json
 same "$(jq -c '[.hidden.count, .shrunk.trimmed]' m.json)" '[3,0]' "a least size:"
-expect 0 separate h.gpkg r.gpkg "${words[@]}" --hide --hide-weight 1 --trim --rigid-where "name = 'right'" --stats r.json
+expect 0 separate h.gpkg r.gpkg "${words[@]}" --hide --hide-weight 1 --trim --crossed hide --rigid-where "name = 'right'" --stats r.json
 same "$(value r.gpkg right sunder_st),$(value r.gpkg left sunder_lvl)" "hidden,1" "a rigid house:"
-expect 0 separate h.gpkg c.gpkg "${words[@]}" --hide --hierarchy-field class --trim
+expect 0 separate h.gpkg c.gpkg "${words[@]}" --hide --hierarchy-field class --trim --crossed hide
 same "$(value c.gpkg left sunder_st),$(value c.gpkg left sunder_lvl)" "unmoved,1" "a house that is never hidden is cut:"
 
 # The check makes the smaller shapes again. A feature with another shape is altered.
 checks=("${words[@]}" --no-blocks --block-field sunder_blk --hidden-field sunder_inv --before h.gpkg)
-expect 0 check o.gpkg -l houses "${checks[@]}" --trim --stats check.json
+expect 0 check o.gpkg -l houses "${checks[@]}" --crossed hide --trim --stats check.json
 same "$(jq -c '[.moves.altered, .moves.not_a_translate, .moves.needless]' check.json)" '[0,0,0]' "the check:"
-expect 3 check o.gpkg -l houses "${checks[@]}" --stats check.json
+expect 3 check o.gpkg -l houses "${checks[@]}" --crossed hide --stats check.json
 same "$(jq -c '[.moves.altered, .moves.not_a_translate]' check.json)" '[null,2]' "the check without --trim:"
 ogr2ogr -q planted.gpkg o.gpkg houses -nln houses
 ogrinfo -q planted.gpkg -sql "UPDATE houses SET geom = ST_GeomFromText('POLYGON((4 0,12 0,12 10,4 10,4 0))') WHERE name = 'right'" \
     -dialect SQLite >/dev/null 2>&1
-expect 3 check planted.gpkg -l houses "${checks[@]}" --trim --stats check.json
+expect 3 check planted.gpkg -l houses "${checks[@]}" --crossed hide --trim --stats check.json
 same "$(jq -c '.moves.altered' check.json)" 1 "a house that is cut otherwise:"
 
 # The same bytes for any number of threads, and formats without fast rows.
-expect 0 separate h.gpkg t.csv "${words[@]}" --hide --trim --threads 1 --lco GEOMETRY=AS_WKT --layers main
-expect 0 separate h.gpkg t4.csv "${words[@]}" --hide --trim --threads 4 --lco GEOMETRY=AS_WKT --layers main
+expect 0 separate h.gpkg t.csv "${words[@]}" --hide --trim --crossed hide --threads 1 --lco GEOMETRY=AS_WKT --layers main
+expect 0 separate h.gpkg t4.csv "${words[@]}" --hide --trim --crossed hide --threads 4 --lco GEOMETRY=AS_WKT --layers main
 cmp -s t.csv t4.csv || fail "other threads, another result"
 
 expect 2 separate h.gpkg x.gpkg --gap 0.5 --trim
 grep -q -- '--trim: features are cut back at barriers; give --barrier' err || fail "the message: $(cat err)"
-expect 2 separate h.gpkg x.gpkg "${words[@]}" --trim --trim-keep 1.5
-expect 2 separate h.gpkg x.gpkg "${words[@]}" --trim --max-memory 1G
+expect 2 separate h.gpkg x.gpkg "${words[@]}" --trim --crossed hide --trim-keep 1.5
+expect 2 separate h.gpkg x.gpkg "${words[@]}" --trim --crossed hide --max-memory 1G
 
 # Many towns with slanted walls.
 /usr/bin/python3 -c 'from osgeo import ogr' 2>/dev/null || { echo "without GDAL's Python module: no towns"; finish; exit 0; }

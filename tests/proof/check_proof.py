@@ -51,6 +51,7 @@ def read_options(words):
     parser.add_argument("--allow-jumps", action="store_true")
     parser.add_argument("--hide", action="store_true")
     parser.add_argument("--hierarchy-field")
+    parser.add_argument("--crossed", choices=("keep", "trim", "hide"), default="keep")
     parser.add_argument("--hide-weight", choices=("1", "area", "sqrt-area"), default="sqrt-area")
     for name in ("effort", "seed", "id-field", "threads"):
         parser.add_argument("--" + name, help="no part of what is claimed")

@@ -27,7 +27,7 @@ def check(problem, told):
         demand(still, "one of", a, "and", b, "may move")
         demand(is_too_near(problem, a, b), a, "and", b, "stand as far apart as they owe")
     elif reason == "kept":
-        demand(problem.options.contained == "ignore" and is_kept(problem, a, b), a, "and", b, "may not overlap")
+        demand(problem.is_crossed(a, b) or (problem.options.contained == "ignore" and is_kept(problem, a, b)), a, "and", b, "may not overlap")
     elif reason == "same_block":
         p, q = (problem.whole(k) for k in (a, b))
         demand(told["kind"] not in ("overlap", "contained", "duplicate") or plane.interiors_meet(p, q), a, "and", b, "do not overlap")

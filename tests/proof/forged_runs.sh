@@ -84,7 +84,7 @@ forge_generated() {
     forged between row.gpkg --gap 3 --least-gap 1 --max-shift 2 --ease 30 --rows auto --fixed-where 'w = 3' --weight-field w
     forged squeezed squeezed.gpkg --gap 5 --max-shift 20 --fixed-where 'w = 3' --rows auto
     only='"within"' forged shut shut.gpkg --barrier shut_in.gpkg
-    forged hidden hidden.gpkg --gap 0.5 --max-shift 3 --no-blocks --block-field k --contained separate --barrier walls.gpkg --hide --hide-weight area \
+    forged hidden hidden.gpkg --gap 0.5 --max-shift 3 --no-blocks --block-field k --contained separate --barrier walls.gpkg --hide --crossed hide --hide-weight area \
         --hierarchy-field class
     forged shares squares.gpkg --gap 3 --effort 0
     small_worlds 30 41 55 112 135 156 200 226 261 386 518 549 618 634 652 655 663 673 692 705 755 980 1047 1129 1136 1171 1228 1466 3063 3192 3231

@@ -4,6 +4,7 @@ A feature has the levels 0, as given, and 1, hidden. What it costs to hide is a 
 compared in the order of the classes.
 """
 import math
+from collections import defaultdict
 from fractions import Fraction
 
 import decided
@@ -34,10 +35,11 @@ def vector(told):
 
 class Clause(Verdict):
     """A proof that all members, beside the features of class 0 and the barriers, cannot be without a conflict together. So no pair is
-    listed, and what is asked of a pair may be less than that it has no conflict, and never more."""
+    listed, except those that are crossed and kept; and what is asked of a pair may be less than that it has no conflict, and never more."""
 
     def __init__(self, problem, told):
         super().__init__(problem, {**told, "blocked_by": []})
+        self.kinds = defaultdict(lambda: "barrier")  # of those that are crossed
         self.alone = self.crowded = False
 
     def check(self):
@@ -47,13 +49,16 @@ class Clause(Verdict):
         return self.told["reason"] == "no_room" or self.told.get("crowded", False)
 
     def is_listed(self, a, b):
-        return False
+        return self.problem.is_crossed(a, b)
 
     def check_row(self, node):
         self.check_row_of(node)
 
     def demand_held(self, a, b, square, inside):
         """A pair that is held to its distance at the start owes as much. If its interiors met, it has to do better in any case."""
+        if self.is_listed(a, b):
+            super().demand_held(a, b, square, inside)
+            return
         demand(square <= Fraction(self.problem.required(a, b)) ** 2, "more is asked of", a, b, "than they owe")
 
 
@@ -125,6 +130,7 @@ class Hiding:
             Clause(self.problem, told).check()
             return
         demand(reason in ("fixed", "max_shift"), "no proof of a clause of", a, "and", b)
+        demand(not self.problem.is_crossed(a, b), a, "and", b, "may stay as they stand")
         decided.check(self.problem, {**told, "blocked_by": [], "kind": "overlap"})
 
     def check_choice(self, told):

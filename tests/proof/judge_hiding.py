@@ -2,7 +2,7 @@
 without a conflict; of a tree for a choice that costs less than its bound and hides a member of each of its clauses."""
 import random
 from fractions import Fraction
-from itertools import combinations
+from itertools import combinations, product
 
 from judge_places import Places
 
@@ -30,6 +30,9 @@ class HidingJudge:
     def layout(self):
         """Moves of the bodies with which no pair has a conflict, or None."""
         problem, places, drawn = self.problem, Places(self.problem), random.Random(1)
+        for fid, key in product(problem.place, problem.owed):
+            if problem.is_crossed(fid, key):
+                places.kinds[frozenset((fid, key))] = "barrier"
         present = [fid for fid in problem.place if fid not in problem.skipped and not problem.is_hidden(fid)]
         bodies = list(dict.fromkeys(problem.block(fid) for fid in present))
         for trial in range(TRIES):

@@ -137,6 +137,7 @@ class Problem:
         self.pairs, self.wholes = set(), {}
         self.listed = {}  # pairs: the kinds of their conflicts
         self.stood = {}   # pairs: see how_it_stood()
+        self.crossed = {}  # pairs of a feature and a barrier: see is_crossed()
         self.occupied = {}  # bodies and sides of squares: see prices.py
         self.sides = set()
         for key, polygons, lines, width, (gap, full), side in barriers:
@@ -196,6 +197,16 @@ class Problem:
             if self.is_barrier(key):
                 return self.owed[key]
         return self.lattice(self.least_gap)
+
+    def is_crossed(self, a, b):
+        """Does a line or point of one, a barrier, meet the interior of the other one where it stands, and may that stay so?"""
+        if not self.options.hide or self.options.crossed != "keep" or self.is_barrier(a) == self.is_barrier(b):
+            return False
+        feature, barrier = (b, a) if self.is_barrier(a) else (a, b)
+        if (feature, barrier) not in self.crossed:
+            p, q = self.whole(feature), plane.Outline(lines=self.things[barrier].lines)
+            self.crossed[feature, barrier] = bool(q.edges) and plane.interiors_meet(p, q)
+        return self.crossed[feature, barrier]
 
     def full(self, a, b):
         """The distance of which two pay what they lack."""

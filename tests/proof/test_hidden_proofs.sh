@@ -19,13 +19,22 @@ proved() {
 }
 
 make_hidden
-hidden=(--gap 0.5 --max-shift 3 --no-blocks --block-field k --contained separate --hide --barrier walls.gpkg)
+kept=(--gap 0.5 --max-shift 3 --no-blocks --block-field k --contained separate --hide --barrier walls.gpkg)
+hidden=("${kept[@]}" --crossed hide)
 proved hidden.gpkg 'hidden 5, 6 clauses with proofs' "${hidden[@]}" --rows no --ease no --hide-weight area --hierarchy-field class
 python3 "$here/mutations.py" p.jsonl hidden.gpkg --layer buildings --result o.gpkg "${hidden[@]}" --rows no --ease no --hide-weight area \
     --hierarchy-field class >said 2>kinds || fail "$(cat said)"
 cut -c 1-70 kinds
 [ "$(cut -d ' ' -f 1 kinds)" = 22 ] || fail "kinds of untruth are missing: $(cat kinds)"
 proved hidden.gpkg 'hidden 5' "${hidden[@]}" --hide-weight 1
+
+# A house that a line crosses is kept, and so are three that a footway crosses, except the one for which there is no room.
+proved hidden.gpkg 'hidden 3, 4 clauses with proofs' "${kept[@]}" --rows no --ease no --hide-weight 1
+printf 'WKT,w\n"LINESTRING(-8 3,36 3)",1\n' | layer footway.gpkg footway LINESTRING
+proved hidden.gpkg 'hidden 3, 4 clauses with proofs' "${kept[@]}" --rows no --hide-weight 1 --barrier footway.gpkg,width=1,gap=2
+python3 "$here/check_proof.py" p.jsonl hidden.gpkg --layer buildings --result o.gpkg "${hidden[@]}" --rows no --hide-weight 1 \
+    --barrier footway.gpkg,width=1,gap=2 >said 2>&1
+[ $? = 1 ] && grep -q 'may not overlap' said || fail "kept, where that is not allowed: $(cat said)"
 
 # A row of ten houses with room for seven, whose ends are fixed: with the rule of rows, and with prices.
 python3 -c '

@@ -130,8 +130,8 @@ OPTIONS = (
     Option("--rigid-where", EXPRESSION, LAYERS, "Features whose shapes never change",
            "They are not cut back; they may move, and be left out."),
     Option("--crossed", CHOICE, LAYERS, "A feature that a barrier's line crosses",
-           "If it has no room: it is cut back to one side, or keeps its shape and may be left out.",
-           1, ("trim", "hide"), ("Is cut back to one side", "Keeps its shape")),
+           "It may stay beside that barrier; or, if it has no room, it is cut back to one side or left out.",
+           0, ("keep", "trim", "hide"), ("May stay as it stands", "Is cut back to one side", "Is left out")),
     Option("--hidden-field", NUMERIC_FIELD, ("check",), "Field: features that are left out",
            "Those with a value other than 0 owe nothing; in a result of Sunder: sunder_inv."),
     # ---- Symbols ----

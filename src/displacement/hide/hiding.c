@@ -73,9 +73,17 @@ static bool add_members(const sunder_i_model *model, uint32_t thing, sunder_i_li
     return ok;
 }
 
+/* Does the node ask more of a feature and the barrier that crosses it than not to stand worse? The proof is then about
+ * a layout in which the two are apart, though they need not be. */
+static bool asks_of_crossed(const sunder_i_model *model, const sunder_proof_node *node)
+{
+    return !node->shadow && !node->row && !node->held && node->clearance >= 0 &&
+           sunder_i_is_crossed(model, (uint32_t)node->a, (uint32_t)node->b);
+}
+
 /* Lists the things that the proof names. With the rule of rows for two blocks it names all of their members. Sets
  * *proved to false if the proof rests on the coordinates that the corners of a block can have: without some of its
- * members it can have others. */
+ * members it can have others; or if it asks more than is owed. */
 static bool add_things(const sunder_i_model *model, const sunder_proof *proof, bool *proved, sunder_i_list *set)
 {
     bool ok = true;
@@ -85,6 +93,7 @@ static bool add_things(const sunder_i_model *model, const sunder_proof *proof, b
         const uint32_t a = (uint32_t)node->a, b = (uint32_t)node->b;
         *proved = *proved && !node->still;
         if (node->ways == 0) continue;
+        *proved = *proved && !asks_of_crossed(model, node);
         if (node->row)
             ok = add_members(model, a, set) && add_members(model, b, set);
         else

@@ -139,6 +139,8 @@ sunder_status sunder_layer_set_hiding(sunder_layer *layer, const sunder_hiding_c
     return SUNDER_OK;
 }
 
+void sunder_layer_set_crossed(sunder_layer *layer, sunder_crossed crossed) { layer->crossed = crossed; }
+
 /* Checks the levels of feature k: each lies in the shape before it and costs no less. */
 static sunder_status check_levels(const sunder_layer *layer, size_t k, const sunder_level *level, size_t n,
                                   sunder_error *err)

@@ -117,7 +117,7 @@ static sunder_status is_in_conflict(const sunder_i_model *model, const sunder_i_
         const sunder_i_translate other = sunder_i_standing(model, placement, g);
         status = sunder_i_relate(&model->rules, f < g ? place : &other, f < g ? &other : place, &r, err);
     }
-    *yes = !status && sunder_i_is_conflict_of_bodies(model, &r);
+    *yes = !status && sunder_i_is_conflict_of_bodies(model, &r) && !sunder_i_is_crossed(model, f, g);
     return status;
 }
 

@@ -203,6 +203,10 @@ struct sunder_i_model {
     size_t inclusions;
     sunder_i_inclusion *nested; /* pairs in conflict in which one feature lay in the other at the start; sorted */
     size_t nested_n;
+    sunder_i_id_pair
+        *crossed; /* pairs of a feature and the first part of a barrier, a line of which crosses it at home,
+                                * if these are kept (crossed_features.c); sorted */
+    size_t crossed_n;
     sunder_i_relaxations relaxations;
     sunder_i_id_pair *given_up; /* pairs of bodies for which no solution was found that resolves this pair as well as
                                  * the others; sorted */
@@ -367,6 +371,13 @@ static inline sunder_i_translate sunder_i_at_home(const sunder_i_model *model, u
 /* Makes the bodies: joins the features that the rules join. */
 sunder_status sunder_i_model_join(sunder_i_model *model, const sunder_i_relations *relations, sunder_error *err);
 void sunder_i_model_free(sunder_i_model *model);
+
+/* ---- crossed_features.c ------------------------------------------------------------------------------------------ */
+
+/* Notes the pairs of a feature and a barrier that crosses it, if the layer keeps them. start: the relations at home. */
+sunder_status sunder_i_model_note_crossed(sunder_i_model *model, const sunder_i_relations *start, sunder_error *err);
+/* Is one of the two things crossed by a line of the other, and kept? */
+bool sunder_i_is_crossed(const sunder_i_model *model, uint32_t f, uint32_t g);
 
 /* ---- bodies.c ---------------------------------------------------------------------------------------------------- */
 

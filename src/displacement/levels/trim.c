@@ -36,7 +36,8 @@ typedef struct trimmer {
 /* Scratch of one thread. */
 typedef struct zones {
     sunder_i_cuts cuts;
-    sunder_i_list near;
+    sunder_i_list near;    /* pieces of barriers */
+    sunder_i_list crossed; /* barriers that cross the feature; ascending */
     double *point;
     size_t room;
 } zones;
@@ -74,38 +75,59 @@ static bool add_zone(const trimmer *t, zones *z, const sunder_i_piece_of *piece,
     return true;
 }
 
-/* Sets *crossed to whether a line or point of a listed barrier meets the interior of the shape. */
-static sunder_status is_crossed(const trimmer *t, const zones *z, const sunder_shape *shape, bool *crossed,
-                                sunder_error *err)
+/* Returns the margin of zones that reach a box. */
+static double margin_of(const double box[4])
+{
+    double most = 0;
+    for (int c = 0; c < 4; c++) most = sunder_i_max(most, fabs(box[c]));
+    return most * MARGIN;
+}
+
+/* Lists the pieces whose zones may reach a box. Returns false if memory is out. */
+static bool list_pieces(const trimmer *t, zones *z, const double box[4], double margin)
+{
+    double about[4];
+    z->near.n = 0;
+    sunder_i_box_grow(box, t->barriers.farthest + margin, about);
+    if (!sunder_i_rtree_query(&t->tree, about, &z->near)) return false;
+    if (z->near.n) qsort(z->near.item, z->near.n, sizeof *z->near.item, sunder_i_by_number);
+    return true;
+}
+
+/* Lists the barriers with a line or point, among the listed pieces, that meets the interior of the shape. */
+static sunder_status list_crossed(const trimmer *t, zones *z, const sunder_shape *shape, sunder_error *err)
 {
     sunder_i_interior_cover cover = {0};
     sunder_status status = sunder_i_interior_cover_make(shape, &cover, err);
-    *crossed = false;
-    for (size_t k = 0; k < z->near.n && !status && !*crossed; k++) {
+    z->crossed.n = 0;
+    for (size_t k = 0; k < z->near.n && !status; k++) {
+        const uint32_t barrier = t->barrier_of[z->near.item[k]];
         const sunder_i_piece_of *piece = &t->barriers.piece[z->near.item[k]];
         sunder_shape *line = NULL;
-        if (sunder_i_piece_has_area(piece)) continue;
+        bool crosses = false;
+        if (sunder_i_piece_has_area(piece) || sunder_i_set_has(z->crossed.item, z->crossed.n, barrier)) continue;
         status = sunder_i_shape_of_pieces(piece, 1, &line, err);
-        if (!status) status = sunder_i_overlap(line, NULL, cover.shape ? cover.shape : shape, NULL, crossed, err);
+        if (!status) status = sunder_i_overlap(line, NULL, cover.shape ? cover.shape : shape, NULL, &crosses, err);
         sunder_shape_free(line);
+        /* Pieces are sorted, and barriers with them. */
+        if (!status && crosses && !sunder_i_list_push(&z->crossed, barrier)) status = sunder_i_failure_cause(err);
     }
     sunder_i_interior_cover_free(&cover);
     return status;
 }
 
-/* Lists the zones that may reach a box. Returns false if memory is out. */
-static bool list_zones(const trimmer *t, zones *z, const double box[4])
+/* Adds the zones of the listed pieces that reach a box, except those of crossed barriers if these are kept. Returns
+ * false if memory is out. */
+static bool add_zones(const trimmer *t, zones *z, const double box[4], double margin)
 {
-    double about[4], own[4], most = 0;
-    for (int c = 0; c < 4; c++) most = sunder_i_max(most, fabs(box[c]));
-    z->cuts.n = z->cuts.corners = z->near.n = 0;
-    sunder_i_box_grow(box, t->barriers.farthest + most * MARGIN, about);
-    if (!sunder_i_rtree_query(&t->tree, about, &z->near)) return false;
-    if (z->near.n) qsort(z->near.item, z->near.n, sizeof *z->near.item, sunder_i_by_number);
     bool ok = true;
+    z->cuts.n = z->cuts.corners = 0;
     for (size_t k = 0; k < z->near.n && ok; k++) {
-        const uint32_t piece = z->near.item[k];
-        const double radius = sunder_i_required_above(&t->barriers, t->barrier_of[piece]) + most * MARGIN;
+        const uint32_t piece = z->near.item[k], barrier = t->barrier_of[piece];
+        const double radius = sunder_i_required_above(&t->barriers, barrier) + margin;
+        double own[4];
+        if (t->layer->crossed == SUNDER_CROSSED_KEEP && sunder_i_set_has(z->crossed.item, z->crossed.n, barrier))
+            continue;
         sunder_i_piece_box(&t->barriers.piece[piece], own);
         sunder_i_box_grow(own, radius, own);
         if (sunder_i_box_meet(own, box)) ok = add_zone(t, z, &t->barriers.piece[piece], radius);
@@ -136,11 +158,14 @@ static sunder_status trim_feature(const trimmer *t, zones *z, size_t f, sunder_e
     if (!shape || sunder_shape_is_empty(shape) || shape->rational || sunder_i_demands(t->layer, f)->ignored)
         return SUNDER_OK;
     sunder_shape_box(shape, box);
-    if (!list_zones(t, z, box)) return sunder_i_failure_cause(err);
+    const double margin = margin_of(box);
+    if (!list_pieces(t, z, box, margin)) return sunder_i_failure_cause(err);
+    if (z->near.n == 0) return SUNDER_OK;
+    sunder_status status = SUNDER_OK;
+    if (t->layer->crossed != SUNDER_CROSSED_TRIM) status = list_crossed(t, z, shape, err);
+    if (status || (t->layer->crossed == SUNDER_CROSSED_HIDE && z->crossed.n)) return status;
+    if (!add_zones(t, z, box, margin)) return sunder_i_failure_cause(err);
     if (z->cuts.n == 0) return SUNDER_OK;
-    bool crossed = false;
-    sunder_status status = t->how.crossed ? SUNDER_OK : is_crossed(t, z, shape, &crossed, err);
-    if (status || crossed) return status;
     status = sunder_i_shape_subtract(shape, &z->cuts, &trimmed, err);
     if (!status && trimmed) status = may_stay(t, shape, trimmed, &may, err);
     if (may) t->out[f] = trimmed;
@@ -157,7 +182,7 @@ static sunder_status trim_some(void *context, size_t begin, size_t end, sunder_e
         status = trim_feature(t, &z, f, err);
         if (!status && !sunder_i_step()) status = sunder_i_failure_cause(err);
     }
-    sunder_i_free_all(z.cuts.xy, z.cuts.end, z.near.item, z.point);
+    sunder_i_free_all(z.cuts.xy, z.cuts.end, z.near.item, z.crossed.item, z.point);
     return status;
 }
 

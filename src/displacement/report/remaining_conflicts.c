@@ -234,6 +234,7 @@ static sunder_status describe_barrier(const describing *d, sunder_conflict *c, s
         }
     }
     if (!d->reasons) return SUNDER_OK;
+    if (sunder_i_is_crossed(model, (uint32_t)c->a, (uint32_t)c->b)) c->reason = SUNDER_REASON_KEPT;
     const sunder_i_translate was = sunder_i_at_home(model, (uint32_t)c->a);
     status = sunder_i_barrier_stand(model, &was, (uint32_t)c->b, &home, err);
     c->before = home.distance;

@@ -57,6 +57,7 @@ static bool has_price(const sunder_i_listing *l, const sunder_i_body_piece *a, c
 {
     const uint32_t f = a->feature, g = b->feature;
     return (waiver || sunder_i_has_slack(l->model)) && (a->corners > 2 || b->corners > 2) &&
+           !sunder_i_is_crossed(l->model, f, g) &&
            (sunder_i_is_barrier(l->model, f) || sunder_i_is_barrier(l->model, g) ||
             !sunder_i_is_included(l->model, f < g ? f : g, f < g ? g : f));
 }

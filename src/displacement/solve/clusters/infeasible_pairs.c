@@ -1,5 +1,6 @@
 /* Pairs in conflict that no moves within the limits of the two resolve, found exactly before anything moves; a fixed
- * body has the limit 0. (Pairs that clusters give up later: given_up.c.) */
+ * body has the limit 0. Features that a barrier's line crosses are treated alike, if they are kept. (Pairs that
+ * clusters give up later: given_up.c.) */
 #include "displacement/layer/barrier_pairs.h"
 #include "displacement/solve/clusters/cluster_stages.h"
 
@@ -32,23 +33,36 @@ static bool is_left(const judging *g, const sunder_i_relation *r)
            sunder_i_solver_is_spared(g->solver, g->spared, r->a, r->b);
 }
 
+/* Sets *stays to whether pair k stays in conflict: since it is crossed and kept, or since no moves resolve it. */
+static sunder_status judge_pair(const judging *g, size_t k, bool *stays, sunder_error *err)
+{
+    const sunder_i_model *model = g->model;
+    const sunder_i_relation *r = &g->start->pair[k];
+    const double limit[2] = {sunder_i_limit_of(&model->body[model->body_of[r->a]]),
+                             sunder_i_limit_of(&model->body[model->body_of[r->b]])},
+                 reach = limit[0] + limit[1];
+    *stays = false;
+    if (!sunder_i_is_open_conflict(model, r)) return SUNDER_OK;
+    *stays = sunder_i_is_crossed(model, r->a, r->b);
+    if (*stays || reach == INFINITY || is_left(g, r)) return SUNDER_OK;
+    if (!sunder_i_is_barrier(model, r->b) &&
+        boxes_can_part(sunder_i_home_box(model, r->a), sunder_i_home_box(model, r->b), model->rules.gap, reach))
+        return SUNDER_OK;
+    const sunder_status status = sunder_i_resolve_within(model, r->a, r->b, limit, &g->resolution[k], err);
+    *stays = !status && g->resolution[k].beyond;
+    return status;
+}
+
 static sunder_status judge_pairs(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const judging *g = context;
-    const sunder_i_model *model = g->model;
     sunder_status status = SUNDER_OK;
     for (size_t k = begin; k < end && !status; k++) {
         const sunder_i_relation *r = &g->start->pair[k];
-        const uint32_t i = model->body_of[r->a], j = model->body_of[r->b];
-        const double limit[2] = {sunder_i_limit_of(&model->body[i]), sunder_i_limit_of(&model->body[j])},
-                     reach = limit[0] + limit[1];
-        if (!sunder_i_is_open_conflict(model, r) || reach == INFINITY || is_left(g, r) ||
-            (!sunder_i_is_barrier(model, r->b) &&
-             boxes_can_part(sunder_i_home_box(model, r->a), sunder_i_home_box(model, r->b), model->rules.gap, reach)))
-            continue;
-        status = sunder_i_resolve_within(model, r->a, r->b, limit, &g->resolution[k], err);
-        if (status || !g->resolution[k].beyond) continue;
-        status = sunder_i_relaxation_of(model, r->a, r->b, &g->relaxation[k], err);
+        bool stays;
+        status = judge_pair(g, k, &stays, err);
+        if (status || !stays) continue;
+        status = sunder_i_relaxation_of(g->model, r->a, r->b, &g->relaxation[k], err);
         g->relaxation[k].infeasible = true;
     }
     return status;
@@ -70,7 +84,11 @@ static sunder_status take_judgement(sunder_i_solver *s, const sunder_i_relation 
     sunder_i_model *model = &s->model;
     if (relaxation->infeasible && is_known(&model->relaxations, relaxation)) return SUNDER_OK;
     if (relaxation->infeasible)
-        sunder_i_trace_pair(model, "limits", "proved: no solution of the two within their limits", r->a, r->b);
+        sunder_i_trace_pair(model, "limits",
+                            sunder_i_is_crossed(model, r->a, r->b)
+                                ? "a line crosses the feature, which is kept"
+                                : "proved: no solution of the two within their limits",
+                            r->a, r->b);
     if (relaxation->infeasible)
         return sunder_i_relaxations_spread(&model->relaxations, model, relaxation, model->rules.gap)
                    ? SUNDER_OK

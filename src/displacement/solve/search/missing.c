@@ -21,6 +21,12 @@ static double slack_of(const sunder_i_search *s, const sunder_i_piece_pair *pair
     return sunder_i_full_above(model, f, g) - sunder_i_owed_above(model, f, g);
 }
 
+/* Does a line of a barrier cross the feature, which is kept so? Then the two lack nothing. */
+static bool is_kept(const sunder_i_search *s, const sunder_i_piece_pair *pair)
+{
+    return sunder_i_is_crossed(s->model, pair->a->feature, pair->b->feature);
+}
+
 /* What neighbours in a row lack, at the relative move u of j, of the rule of rows with the full gap, along *along;
  * -INFINITY if they have no such rule. */
 static double missing_along(const sunder_i_search *s, uint32_t i, uint32_t j, const double u[2], const double **along)
@@ -44,7 +50,7 @@ static void take_pieces(sunder_i_search *s, const sunder_i_piece_pair *pair, voi
     const facing *f = context;
     double gap;
     size_t n;
-    if (pair->shadow || pair->inclusion != SUNDER_I_LAPSED) return;
+    if (pair->shadow || pair->inclusion != SUNDER_I_LAPSED || is_kept(s, pair)) return;
     const sunder_i_obstacle_edge *edge = sunder_i_search_edges(s, pair, &n, &gap);
     if (!edge) return;
     const sunder_i_support h = sunder_i_search_support(pair, edge, n, f->u);
@@ -87,7 +93,7 @@ static void forbid_pieces(sunder_i_search *s, const sunder_i_piece_pair *pair, v
 {
     const forbidding *f = context;
     double gap;
-    if (pair->shadow) return;
+    if (pair->shadow || is_kept(s, pair)) return;
     const size_t n = sunder_i_search_obstacle(s, pair, &gap);
     for (size_t k = 0; k < 2 * n; k++) s->scratch.xy[k] += f->shift[k & 1];
     s->steps += OBSTACLE_WORK;

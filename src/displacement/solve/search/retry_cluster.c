@@ -39,7 +39,8 @@ bool sunder_i_can_be_disjoint(const sunder_i_model *model, const sunder_i_relaxa
     const sunder_i_body *p = &model->body[model->body_of[relaxation->a]],
                         *q = &model->body[model->body_of[relaxation->b]];
     const double depth = hypot(relaxation->shift[0], relaxation->shift[1]);
-    return depth > 0 && sunder_i_owed_above(model, relaxation->a, relaxation->b) > 0 &&
+    return depth > 0 && !sunder_i_is_crossed(model, relaxation->a, relaxation->b) &&
+           sunder_i_owed_above(model, relaxation->a, relaxation->b) > 0 &&
            depth <= sunder_i_limit_of(p) + sunder_i_limit_of(q);
 }
 
