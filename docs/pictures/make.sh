@@ -86,7 +86,7 @@ scene town.gpkg
 } | layer buildings POLYGON
 printf 'main_street\tLINESTRING (-10 6, 100 6)\n' | layer roads LINESTRING 8
 rm -f out.gpkg
-draw cut 74 26 --gap 1 --max-shift 0.6 --hide --trim --barrier scene.gpkg,layer=roads,width=8
+draw cut 74 26 --gap 1 --max-shift 0.6 --hide --trim --crossed hide --barrier scene.gpkg,layer=roads,width=8
 
 # A piece of the town for a map at 1:25 000: roads 0.3 mm wide, 0.1 mm of paper between.
 sunder separate --quiet --allow-conflicts -l buildings --scale 25000 --gap 0.1mm --max-shift 0.4mm \

@@ -173,7 +173,8 @@ class Manner:
         self.weighting = rng.choice(("1", "area", "sqrt-area"))
         self.areas = rng.random() < 0.4
         self.words = ["--gap", "4", "--max-shift-field", "most", "--fixed-where", "fixed = 1", "--hide-weight", self.weighting,
-                      "--barrier", "in.gpkg,layer=roads,width-field=width", "--barrier", "in.gpkg,layer=parks"]
+                      "--barrier", "in.gpkg,layer=roads,width-field=width", "--barrier", "in.gpkg,layer=parks",
+                      "--crossed", "hide"]
         if self.blocks:
             self.words += ["--block-field", "block"]
         if not self.ordered:

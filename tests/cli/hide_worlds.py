@@ -181,7 +181,7 @@ def check_layer(program, seed, counts):
                  ("areas", "POLYGON", "x", areas)))
     words = ["--gap", repr(gap), "--max-shift-field", "most", "--hide-weight", weighting, "--hierarchy-field", "class",
              "--allow-jumps", "--rows", "no", "--ease", "no", "--barrier", "in.gpkg,layer=lines,side=no", "--barrier",
-             "in.gpkg,layer=areas,side=no"]
+             "in.gpkg,layer=areas,side=no", "--crossed", "hide"]
     run, trouble = Run(program, words, proof="proof.jsonl"), []
     trouble += run.refused
     for t, w in enumerate(worlds):
