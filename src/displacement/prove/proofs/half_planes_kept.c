@@ -1,7 +1,9 @@
 /* A cache of the half-planes between two pieces that are not made for a particular place. They are the same for every
  * candidate of a tree, and are needed in hundreds of thousands of its nodes. Consecutive questions about one model
- * share them, also if their gaps differ. Two pairs that hash to one slot evict each other. The cache only saves time:
- * the half-planes are the same, and their cost is counted the same. */
+ * share them, also if their gaps differ. The cache is a table with one slot for each hash: two pairs that hash to one
+ * slot evict each other. Most trees meet a dozen pairs, a few meet thousands, so the table begins small and doubles
+ * when half of its slots are taken. The cache only saves time: the half-planes are the same, and their cost is counted
+ * the same. */
 #include "displacement/prove/proofs/branching.h"
 #include "displacement/prove/proofs/tuning.h"
 
@@ -52,12 +54,19 @@ size_t sunder_i_branching_fill_half_planes(sunder_i_branching *branching, const 
                   : sunder_i_half_planes_between(&parting, branching->scratch);
 }
 
-struct sunder_i_half_planes_kept {
+/* The half-planes of one pair of pieces, or an empty slot. */
+typedef struct slot {
     const sunder_i_body_piece *a, *b; /* NULL: the slot is empty */
     double clearance, coarse;
     bool shadow;
     sunder_i_half_plane *half_plane;
     size_t n, capacity;
+} slot;
+
+struct sunder_i_half_planes_kept {
+    slot *slot; /* [2^bits] */
+    size_t taken;
+    int bits;
 };
 
 /* Hashes what the piece is, not its address, which differs in every run. */
@@ -69,22 +78,67 @@ static uint64_t hash_piece(const sunder_i_body_piece *piece)
     return mixed;
 }
 
-static size_t place_of(const sunder_i_body_piece *a, const sunder_i_body_piece *b)
+static slot *slot_of(const struct sunder_i_half_planes_kept *kept, const sunder_i_body_piece *a,
+                     const sunder_i_body_piece *b)
 {
-    const uint64_t mixed = (hash_piece(a) ^ hash_piece(a) >> 29) * UINT64_C(0x9e3779b97f4a7c15) + hash_piece(b);
-    return (size_t)((mixed * UINT64_C(0xd1342543de82ef95)) >> (64 - WAYS_KEPT_BITS));
+    const uint64_t hash = hash_piece(a), mixed = (hash ^ hash >> 29) * UINT64_C(0x9e3779b97f4a7c15) + hash_piece(b);
+    return &kept->slot[(mixed * UINT64_C(0xd1342543de82ef95)) >> (64 - kept->bits)];
+}
+
+/* Makes an empty cache; returns NULL if memory is out. */
+static struct sunder_i_half_planes_kept *new_cache(void)
+{
+    struct sunder_i_half_planes_kept *kept = sunder_i_calloc(1, sizeof *kept);
+    if (!kept) return NULL;
+    kept->bits = WAYS_KEPT_BITS;
+    kept->slot = sunder_i_calloc((size_t)1 << kept->bits, sizeof *kept->slot);
+    if (kept->slot) return kept;
+    sunder_i_free(kept);
+    return NULL;
 }
 
 void sunder_i_half_planes_forget(struct sunder_i_half_planes_kept **kept)
 {
-    for (size_t k = 0; k < (size_t)1 << WAYS_KEPT_BITS && *kept; k++) sunder_i_free((*kept)[k].half_plane);
-    sunder_i_free(*kept);
+    if (!*kept) return;
+    for (size_t k = 0; k < (size_t)1 << (*kept)->bits; k++) sunder_i_free((*kept)->slot[k].half_plane);
+    sunder_i_free_all((*kept)->slot, *kept);
     *kept = NULL;
 }
 
+/* Doubles the table. A slot is the leading bits of a hash, so what one slot held goes to one of two new slots that
+ * nothing else goes to. Returns false if memory is out. */
+static bool double_slots(struct sunder_i_half_planes_kept *kept)
+{
+    const struct sunder_i_half_planes_kept old = *kept;
+    slot *wider = sunder_i_calloc((size_t)2 << old.bits, sizeof *wider);
+    if (!wider) return false;
+    kept->slot = wider;
+    kept->bits++;
+    for (size_t k = 0; k < (size_t)1 << old.bits; k++)
+        if (old.slot[k].a)
+            *slot_of(kept, old.slot[k].a, old.slot[k].b) = old.slot[k];
+        else
+            sunder_i_free(old.slot[k].half_plane);
+    sunder_i_free(old.slot);
+    return true;
+}
+
+/* Returns the slot for a pair of pieces, empty or not; NULL if memory is out. */
+static slot *find_slot(struct sunder_i_half_planes_kept **kept, const sunder_i_body_piece *a,
+                       const sunder_i_body_piece *b)
+{
+    if (!*kept) *kept = new_cache();
+    if (!*kept) return NULL;
+    const bool full = (*kept)->taken > (size_t)1 << ((*kept)->bits - 1) && (*kept)->bits < WAYS_MOST_BITS;
+    if (full && !double_slots(*kept)) return NULL;
+    slot *here = slot_of(*kept, a, b);
+    (*kept)->taken += !here->a;
+    return here;
+}
+
 /* Computes the half-planes and stores them in this slot. Returns false if memory is out. */
-static bool keep_half_planes(sunder_i_branching *c, struct sunder_i_half_planes_kept *here, const sunder_i_body *p,
-                             const sunder_i_body *q, const struct sunder_i_half_planes_kept *asked)
+static bool keep_half_planes(sunder_i_branching *c, slot *here, const sunder_i_body *p, const sunder_i_body *q,
+                             const slot *asked)
 {
     here->a = NULL;
     here->n = sunder_i_branching_fill_half_planes(c, p, asked->a, q, asked->b, asked->clearance, asked->shadow, NULL);
@@ -100,14 +154,14 @@ static bool keep_half_planes(sunder_i_branching *c, struct sunder_i_half_planes_
 }
 
 /* Are the half-planes in this slot those that are asked for, apart from the amount of the clearance? */
-static bool is_kept(const struct sunder_i_half_planes_kept *here, const struct sunder_i_half_planes_kept *asked)
+static bool is_kept(const slot *here, const slot *asked)
 {
     return here->a == asked->a && here->b == asked->b && here->shadow == asked->shadow &&
            here->coarse == asked->coarse && (here->clearance > 0) == (asked->clearance > 0) &&
            (here->clearance < 0) == (asked->clearance < 0) && sunder_i_stage_is_on("memo", "half planes");
 }
 
-static void set_clearance(struct sunder_i_half_planes_kept *here, double clearance)
+static void set_clearance(slot *here, double clearance)
 {
     if (here->clearance == clearance) return;
     for (size_t k = 0; k < here->n; k++)
@@ -122,11 +176,10 @@ const sunder_i_half_plane *sunder_i_branching_kept_half_planes(sunder_i_branchin
 {
     const sunder_i_subproblem *subproblem = branching->subproblem;
     struct sunder_i_half_planes_kept **kept = subproblem->planes ? &subproblem->planes->half_planes : &branching->kept;
-    const struct sunder_i_half_planes_kept asked = {
+    const slot asked = {
         .a = a, .b = b, .clearance = clearance, .coarse = coarse_for(branching, p, q), .shadow = shadow};
     *n = 0;
-    if (!*kept) *kept = sunder_i_calloc((size_t)1 << WAYS_KEPT_BITS, sizeof **kept);
-    struct sunder_i_half_planes_kept *here = *kept ? &(*kept)[place_of(a, b)] : NULL;
+    slot *here = find_slot(kept, a, b);
     if (here && is_kept(here, &asked)) {
         branching->looked += a->corners + b->corners;
         set_clearance(here, clearance);

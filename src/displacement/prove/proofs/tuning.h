@@ -5,7 +5,7 @@
 
 /* SUNDER_I_PROOFS_TUNING_VERSION is the version of the values below. It is raised with each change of a value, so that
  * a record can name the values by their version (tests/house/TUNING). */
-#define SUNDER_I_PROOFS_TUNING_VERSION 2
+#define SUNDER_I_PROOFS_TUNING_VERSION 3
 
 /* ---- A node's program (program.c) -------------------------------------------------------------------------------- */
 
@@ -62,9 +62,11 @@
 
 /* ---- Cached half-planes (half_planes_kept.c) --------------------------------------------------------------------- */
 
-/* The cache has 2^WAYS_KEPT_BITS slots, each for the half-planes of one pair of pieces: a question about a dozen houses
- * between roads meets some hundred pairs. */
-#define WAYS_KEPT_BITS 10
+/* The cache begins with 2^WAYS_KEPT_BITS slots, each for the half-planes of one pair of pieces, and doubles up to
+ * 2^WAYS_MOST_BITS: a question about a dozen houses between roads meets some hundred pairs, the questions about one
+ * conflict in a large city ten thousand. */
+#define WAYS_KEPT_BITS 8
+#define WAYS_MOST_BITS 15
 
 /* ---- Corners that two sides share (corner_chord.c) --------------------------------------------------------------- */
 
