@@ -192,8 +192,6 @@ static bool resolve_room(const gis_options *options, gis_layer_rules *out, gis_e
         if (options->given[not_with[i]])
             return gis_fail_usage(error, "%s: not with %s", out->hide ? "--hide" : "--trim",
                                   gis_option_table[not_with[i]].names);
-    if (out->trim && options->given[OPT_PROOF]) /* its clauses are about features as given */
-        return gis_fail_usage(error, "--trim: not with %s", gis_option_table[OPT_PROOF].names);
     if (options->given[OPT_TRIM] && !options->given[OPT_BARRIER])
         return gis_fail_usage(error, "--trim: features are cut back at barriers; give --barrier");
     if (out->trim_keep > 1) return gis_fail_usage(error, "--trim-keep %g: a share is at most 1", out->trim_keep);

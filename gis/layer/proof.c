@@ -32,12 +32,13 @@ gis_proof_head gis_proof_head_of(const gis_layer_input *input, const sunder_laye
                             .summary = summary};
 }
 
-static void count_hiding(const gis_proof_lines *lines, gis_proof_head *head)
+static void count_hiding(const gis_proof_lines *lines, const gis_layer_input *input, gis_proof_head *head)
 {
     sunder_hiding_summary hiding;
     sunder_report_hiding(lines->report, &hiding);
     head->hide = true;
     head->hidden = hiding.hidden;
+    for (size_t i = 0; i < input->n && input->smaller; i++) head->shapes += input->smaller[i] != NULL;
     head->clauses = hiding.proved;
     head->choices = sunder_report_hiding_trees(lines->report)->trees;
     head->class = sunder_report_hiding_classes(lines->report, &head->classes);
@@ -50,7 +51,7 @@ static bool put_head(gis_proof_lines *lines, const gis_layer_input *input, FILE 
     gis_proof_head head = gis_proof_head_of(input, &summary);
     sunder_report_conflicts(lines->report, &head.conflicts);
     sunder_report_bound_trees(lines->report, &head.trees);
-    if (input->request->rules.hide) count_hiding(lines, &head);
+    if (input->request->rules.hide || input->request->rules.trim) count_hiding(lines, input, &head);
     gis_proof_head_line(&lines->json, &head);
     return gis_proof_print(&lines->json, to, error);
 }
@@ -95,6 +96,19 @@ static bool put_hidden(gis_proof_lines *lines, FILE *to, gis_error *error)
         gis_json_raw(&lines->json, "\n");
         lines->json.need_comma = false;
         done = gis_proof_print(&lines->json, to, error);
+    }
+    return done;
+}
+
+/* Writes a line for each smaller shape. */
+static bool put_shapes(gis_proof_lines *lines, const gis_layer_input *input, gis_json *line, FILE *to, gis_error *error)
+{
+    bool done = true;
+    size_t k = 0;
+    for (size_t i = 0; i < input->n && input->smaller && done; i++) {
+        if (!input->smaller[i]) continue;
+        gis_proof_shape(lines, i, 1, input->smaller[i]);
+        done = put_line(lines, "shape", k++, line, to, error);
     }
     return done;
 }
@@ -181,7 +195,8 @@ bool gis_proof_write(const gis_layer_input *input, const sunder_report *report, 
     gis_proof_lines lines;
     gis_json line = {0};
     const bool done = gis_proof_lines_begin(&lines, &things, report, error) && put_head(&lines, input, to, error) &&
-                      put_blocks(&lines, to, error) && put_hidden(&lines, to, error) && put_rows(&lines, to, error) &&
+                      put_blocks(&lines, to, error) && put_hidden(&lines, to, error) &&
+                      put_shapes(&lines, input, &line, to, error) && put_rows(&lines, to, error) &&
                       put_conflicts(&lines, &line, to, error) && put_trees(&lines, &line, to, error) &&
                       put_choices(&lines, &line, to, error);
     gis_proof_lines_clear(&lines);

@@ -1,6 +1,26 @@
-/* proof_hiding.c: the lines of --proof about what is hidden: the clauses with their proofs, and the trees of the bound.
- * Levels of a feature are 0 as given, and 1 hidden. */
+/* proof_hiding.c: the lines of --proof about what is hidden or smaller: smaller shapes, the clauses with their proofs,
+ * and the trees of the bound. */
 #include "layer/proof_lines.h"
+
+void gis_proof_shape(gis_proof_lines *lines, size_t feature, size_t level, const sunder_shape *shape)
+{
+    gis_json *json = &lines->json;
+    gis_proof_thing(lines, "fid", feature);
+    gis_json_put_size(json, "level", level);
+    if (sunder_report_level(lines->report, feature) == level) gis_json_put_bool(json, "taken", true);
+    gis_json_key(json, "polygons");
+    gis_json_open(json, '[');
+    for (size_t p = 0; p < sunder_shape_polygons(shape); p++) {
+        gis_json_open(json, '[');
+        for (size_t r = 0; r < sunder_shape_rings(shape, p); r++) {
+            size_t n;
+            const double *xy = sunder_shape_ring(shape, p, r, &n);
+            gis_proof_corners(lines, NULL, xy, n);
+        }
+        gis_json_close(json, ']');
+    }
+    gis_json_close(json, ']');
+}
 
 void gis_proof_clause(gis_proof_lines *lines, const sunder_clause *clause)
 {
@@ -10,7 +30,7 @@ void gis_proof_clause(gis_proof_lines *lines, const sunder_clause *clause)
     for (size_t m = 0; m < clause->members; m++) {
         gis_json_open(json, '[');
         gis_proof_thing(lines, NULL, clause->member[m]);
-        gis_json_size(json, 0);
+        gis_json_size(json, clause->level[m]);
         gis_json_close(json, ']');
     }
     gis_json_close(json, ']');

@@ -45,9 +45,9 @@ static void put_place(gis_json *json, const char *key, double x, double y)
     gis_json_close(json, ']');
 }
 
-static void put_corners(gis_proof_lines *w, const char *key, const double *xy, size_t n)
+void gis_proof_corners(gis_proof_lines *w, const char *key, const double *xy, size_t n)
 {
-    gis_json_key(&w->json, key);
+    if (key) gis_json_key(&w->json, key);
     gis_json_open(&w->json, '[');
     for (size_t k = 0; k < n; k++) put_place(&w->json, NULL, xy[2 * k], xy[2 * k + 1]);
     gis_json_close(&w->json, ']');
@@ -102,12 +102,12 @@ void gis_proof_lines_clear(gis_proof_lines *lines)
 
 static void put_parts(gis_proof_lines *w, const sunder_proof *proof, const sunder_proof_node *node)
 {
-    put_corners(w, "A", proof->corner + 2 * node->part_a, node->corners_a);
-    put_corners(w, "B", proof->corner + 2 * node->part_b, node->corners_b);
+    gis_proof_corners(w, "A", proof->corner + 2 * node->part_a, node->corners_a);
+    gis_proof_corners(w, "B", proof->corner + 2 * node->part_b, node->corners_b);
     if (node->chord) {
         gis_proof_thing(w, "c", node->c);
-        put_corners(w, "side_b", proof->corner + 2 * node->sides, 2);
-        put_corners(w, "side_c", proof->corner + 2 * node->sides + 4, 2);
+        gis_proof_corners(w, "side_b", proof->corner + 2 * node->sides, 2);
+        gis_proof_corners(w, "side_c", proof->corner + 2 * node->sides + 4, 2);
     }
     if (node->slack) gis_json_put_bool(&w->json, "slack", true);
     if (node->held) gis_json_put_bool(&w->json, "held", true);
@@ -254,7 +254,7 @@ static void put_piece(gis_proof_lines *w, const sunder_bound_tree *tree, const s
         return;
     }
     if (piece->joined) {
-        put_corners(w, "joined", tree->corner + 2 * piece->part_a, piece->corners_a);
+        gis_proof_corners(w, "joined", tree->corner + 2 * piece->part_a, piece->corners_a);
         put_sizes(w, "pieces", tree->named + piece->named, piece->names);
         gis_json_close(&w->json, '}');
         return;
@@ -262,8 +262,8 @@ static void put_piece(gis_proof_lines *w, const sunder_bound_tree *tree, const s
     if (piece->shadow) gis_json_put_bool(&w->json, "shadow", true);
     if (piece->priced) gis_json_put_bool(&w->json, "priced", true);
     if (!isnan(piece->clearance)) gis_json_put_double(&w->json, "clearance", piece->clearance);
-    put_corners(w, "A", tree->corner + 2 * piece->part_a, piece->corners_a);
-    put_corners(w, "B", tree->corner + 2 * piece->part_b, piece->corners_b);
+    gis_proof_corners(w, "A", tree->corner + 2 * piece->part_a, piece->corners_a);
+    gis_proof_corners(w, "B", tree->corner + 2 * piece->part_b, piece->corners_b);
     gis_json_close(&w->json, '}');
 }
 
@@ -473,6 +473,7 @@ static void put_hiding(gis_json *json, const gis_proof_head *head)
     gis_json_key(json, "hide");
     gis_json_open(json, '{');
     gis_json_put_size(json, "hidden", head->hidden);
+    gis_json_put_size(json, "shapes", head->shapes);
     gis_json_put_size(json, "clauses", head->clauses);
     gis_json_put_size(json, "choices", head->choices);
     gis_json_key(json, "bound");

@@ -44,7 +44,9 @@ size_t gis_proof_block(const gis_proof_lines *lines, size_t feature);
 /* Make the text that follows the number of conflict k, or of a tree's group. */
 void gis_proof_conflict(gis_proof_lines *lines, size_t k);
 bool gis_proof_tree(gis_proof_lines *lines, const sunder_bound_tree *tree, gis_error *error);
-/* proof_hiding.c: the text that follows the number of a clause, or of tree k of the bound of what is hidden.
+/* proof_hiding.c: the text that follows the number of a smaller shape, which has this level of the feature. */
+void gis_proof_shape(gis_proof_lines *lines, size_t feature, size_t level, const sunder_shape *shape);
+/* The same for the text that follows the number of a clause, or of tree k of the bound of what is hidden.
  * clause: the numbers of the proved clauses in the file. */
 void gis_proof_clause(gis_proof_lines *lines, const sunder_clause *clause);
 void gis_proof_choice(gis_proof_lines *lines, size_t k, const size_t *clause);
@@ -52,6 +54,8 @@ void gis_proof_choice(gis_proof_lines *lines, size_t k, const size_t *clause);
 void gis_proof_reason(gis_proof_lines *lines, sunder_reason reason, bool crowded);
 /* Writes the proof with its `within`. NULL: writes nothing. */
 void gis_proof_nodes(gis_proof_lines *w, const sunder_proof *proof);
+/* Writes n corners; key: NULL in a list. */
+void gis_proof_corners(gis_proof_lines *w, const char *key, const double *xy, size_t n);
 /* Writes a feature as its number, or a barrier as "LAYER:FID"; key: NULL in a list. */
 void gis_proof_thing(gis_proof_lines *w, const char *key, size_t thing);
 
@@ -70,10 +74,10 @@ typedef struct gis_proof_head {
     double max_shift;
     const sunder_layer_summary *summary;
     size_t conflicts, trees;
-    /* Only with --hide: the numbers of hidden features, of proved clauses, and of trees of their bound, and that bound
-     * by classes. */
+    /* Only with --hide or --trim: the numbers of hidden features, of smaller shapes, of proved clauses, and of trees of
+     * their bound, and that bound by classes. */
     bool hide;
-    size_t hidden, clauses, choices;
+    size_t hidden, shapes, clauses, choices;
     const sunder_hiding_class *class;
     size_t classes;
 } gis_proof_head;

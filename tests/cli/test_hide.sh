@@ -89,7 +89,6 @@ expect 3 check c.gpkg -l houses "${words[@]}" --before h.gpkg
 # Refused calls, and wrong classes.
 usage() { expect 2 "${@:2}" && grep -q -- "$1" err || fail "$*: $(cat err)"; }
 usage 'not with --max-memory' separate h.gpkg x.gpkg --hide --max-memory 1G
-usage 'trim: not with --proof' separate h.gpkg x.gpkg --barrier walls.gpkg --trim --proof x.jsonl
 for value in -1 1.5 important; do
     printf 'WKT,class\n"POLYGON((0 0,1 0,1 1,0 0))",%s\n' "$value" | layer "wrong$value.gpkg" wrong POLYGON
     expect 1 separate "wrong$value.gpkg" x.gpkg --hide --hierarchy-field class

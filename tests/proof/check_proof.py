@@ -35,7 +35,7 @@ def read_options(words):
     parser.add_argument("--result", help="a GeoPackage with what separate wrote: LAYER, LAYER_displacement, "
                         "LAYER_conflicts; its moves cost what they cost")
     for name in ("sql", "dialect", "bbox", "input-crs", "where", "fixed-where", "ignore-where", "max-shift-field", "weight-field",
-                 "block-field", "symbol", "symbol-field", "symbol-size-field", "scale"):
+                 "rigid-where", "block-field", "symbol", "symbol-field", "symbol-size-field", "scale"):
         parser.add_argument("--" + name)
     for name in ("max-shift", "touch-tolerance", "least-gap"):
         parser.add_argument("--" + name)
@@ -53,6 +53,9 @@ def read_options(words):
     parser.add_argument("--hierarchy-field")
     parser.add_argument("--crossed", choices=("keep", "trim", "hide"), default="keep")
     parser.add_argument("--hide-weight", choices=("1", "area", "sqrt-area"), default="sqrt-area")
+    parser.add_argument("--trim", action="store_true")
+    parser.add_argument("--trim-keep", type=float, default=0.5)
+    parser.add_argument("--min-size", help="not verified of smaller shapes")
     for name in ("effort", "seed", "id-field", "threads"):
         parser.add_argument("--" + name, help="no part of what is claimed")
     options = parser.parse_args(words)
@@ -86,7 +89,7 @@ class Checker:
         if options.row_stiffness:
             self.problem.rows = (GivenRows if options.rows_field else Rows)(self.problem, options.row_stiffness)
         self.problem.eased = Eased(self.problem, options.ease)
-        self.hiding = Hiding(self.problem, options) if options.hide else None
+        self.hiding = Hiding(self.problem, options) if options.hide or options.trim else None
         self.known, self.kept, self.held = {}, set(), {}
         self.result = Result(self.problem, options.result) if options.result else None
 
@@ -98,12 +101,15 @@ class Checker:
         demand(("hide" in proof.head) == bool(self.hiding), "the proof is of another problem, with or without hidden features")
         if self.hiding:
             self.hiding.begin(proof.hidden)
+            self.hiding.read_shapes(proof.shapes)
         problem.list_conflicts(proof.conflicts)
         problem.eased.list_conflicts(proof.conflicts)
         demand(problem.rows or not proof.rows, "rows, where none are looked for")
         if problem.rows:
             problem.rows.demand_all(proof.rows)
-        listed = repr((sorted(problem.listed.items()), proof.rows, proof.hidden, sorted((str(c["a"]), str(c["b"]), c["reason"]) for c in proof.conflicts)))
+        if self.hiding:
+            problem.set_levels(self.hiding.taken)
+        listed = repr((sorted(problem.listed.items()), proof.rows, proof.hidden, proof.shapes, sorted((str(c["a"]), str(c["b"]), c["reason"]) for c in proof.conflicts)))
         found, proved = [], 0
         for key, told in proof.statements():
             if key == "group":

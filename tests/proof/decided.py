@@ -129,7 +129,7 @@ def shadows_between(problem, a, b):
         for l in problem.block(b):
             for holder, other, swapped in ((k, l, False), (l, k, True)):
                 at = problem.lattice.point(problem.anchor(holder))
-                if problem.things[other].holds_place(at):
+                if problem.original.get(other, problem.things[other]).holds_place(at):
                     continue
                 for part in parts_of(problem, other):
                     found.append(Piece(part, [at], 0, True) if swapped else Piece([at], part, 0, True))

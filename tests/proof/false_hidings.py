@@ -12,7 +12,7 @@ def lines_of(hidden, clauses, choices, bound):
     """clauses: (members, a, b, reason, perhaps more); choices: (bound, nodes)."""
     def lines(problem):
         head, *rest = proof(problem)
-        head["hide"] = {"hidden": len(hidden), "clauses": len(clauses), "choices": len(choices), "bound": bound}
+        head["hide"] = {"hidden": len(hidden), "shapes": 0, "clauses": len(clauses), "choices": len(choices), "bound": bound}
         told = [{"clause": k, "members": [[fid, 0] for fid in members], "a": a, "b": b, "reason": reason, **(more[0] if more else {})}
                 for k, (members, a, b, reason, *more) in enumerate(clauses)]
         trees = [{"choice": k, "bound": own, "nodes": nodes} for k, (own, nodes) in enumerate(choices)]

@@ -32,7 +32,7 @@ def add_never_hidden(lines):
 
 def other_level(lines):
     for line in with_key(lines, "clause"):
-        line["members"][0][1] = 1
+        line["members"][0][1] = 7
         return ("the level",)
     return False
 
@@ -205,7 +205,96 @@ def show_hidden(lines):
         return False
     lines.remove(hidden[-1])
     lines[0]["hide"]["hidden"] -= 1
-    return ("hides other features", "is no block")
+    return ("hides other features", "is no block", "the bound is more than what is hidden")
+
+
+# ---- Smaller shapes
+
+def scaled(line, factor):
+    ring = line["polygons"][0][0]
+    x, y = (sum(p[c] for p in ring) / len(ring) for c in (0, 1))
+    line["polygons"][0][0] = [[x + factor * (p[0] - x), y + factor * (p[1] - y)] for p in ring]
+
+
+def enlarge_shape(lines):
+    for line in with_key(lines, "shape"):
+        scaled(line, 1.5)
+        return ("does not lie in the one before",)
+    return False
+
+
+def shrink_shape(lines):
+    for line in with_key(lines, "shape"):
+        scaled(line, 0.125)
+        return ("keeps too little",)
+    return False
+
+
+def reach_barrier(lines):
+    """A smaller shape with a corner of the shape as given, by what the file says of parts of the feature."""
+    for line in with_key(lines, "shape"):
+        ring = line["polygons"][0][0]
+        corners = [p for told in lines for node in told.get("proof", ()) for key in "AB" if node.get(key.lower()) == line["fid"] for p in node[key]]
+        for p in corners:
+            if p not in ring and not node_is_near(p, ring):
+                ring.append(p)
+                return ("is too near", "does not lie in", "is no polygon")
+    return False
+
+
+def node_is_near(p, ring):
+    return any(abs(p[0] - q[0]) + abs(p[1] - q[1]) < 0.1 for q in ring)
+
+
+def cross_shape(lines):
+    for line in with_key(lines, "shape"):
+        ring = line["polygons"][0][0]
+        ring[0], ring[1] = ring[1], ring[0]
+        return ("is no polygon",)
+    return False
+
+
+def shape_twice(lines):
+    shapes = with_key(lines, "shape")
+    if not shapes:
+        return False
+    lines.insert(lines.index(shapes[-1]) + 1, {**copy.deepcopy(shapes[0]), "shape": len(shapes)})
+    lines[0]["hide"]["shapes"] += 1
+    return ("not in order, or too many",)
+
+
+def shape_of_nothing(lines):
+    for line in with_key(lines, "shape"):
+        line["fid"] = -5
+        return ("there is no feature",)
+    return False
+
+
+def shape_not_taken(lines):
+    for line in with_key(lines, "shape"):
+        if line.pop("taken", False):
+            return ("with another shape", "elsewhere", "a part does not lie", "a conflict")
+    return False
+
+
+def shape_of_hidden(lines):
+    hidden = [told["fid"] for told in with_key(lines, "hidden")]
+    for line in with_key(lines, "shape"):
+        if line["fid"] in hidden:
+            line["taken"] = True
+            return ("has two shapes, or is hidden",)
+    return False
+
+
+def shapes_for_tree(lines):
+    """A clause of a tree that a smaller shape satisfies."""
+    clauses = with_key(lines, "clause")
+    for share in shares(lines):
+        for member in clauses[share[0]]["members"]:
+            if member[1]:
+                member[1] -= 1
+                return ("a clause that smaller features may meet",)
+    return False
 
 
 HIDES = {"member left out": leave_member_out, "member never hidden": add_never_hidden, "level": other_level, "member twice": member_twice,
@@ -213,4 +302,7 @@ HIDES = {"member left out": leave_member_out, "member never hidden": add_never_h
          "clause twice": clause_twice, "share of another class": other_class, "bound of another class": higher_class,
          "raised bound of hidden": raise_claim, "raised tree of hidden": raise_tree, "dropped leaf of hidden": drop_leaf,
          "leaf more": leaf_more, "split at no level": split_nothing, "called unmet": call_unmet, "share of a met clause": met_clause,
-         "tree of hidden twice": tree_twice, "hidden twice": hide_twice, "hidden important": hide_important, "hidden shown": show_hidden}
+         "tree of hidden twice": tree_twice, "hidden twice": hide_twice, "hidden important": hide_important, "hidden shown": show_hidden,
+         "larger shape": enlarge_shape, "shape that keeps too little": shrink_shape, "shape at a barrier": reach_barrier,
+         "shape that crosses itself": cross_shape, "shape twice": shape_twice, "shape of nothing": shape_of_nothing,
+         "shape not taken": shape_not_taken, "shape of a hidden feature": shape_of_hidden, "lesser level of a clause": shapes_for_tree}

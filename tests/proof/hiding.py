@@ -1,15 +1,19 @@
 """What a file of --proof says about hidden features (docs/PROOF.md, section 6): which are hidden, the clauses, and the bound.
 
-A feature has the levels 0, as given, and 1, hidden. What it costs to hide is a whole number of its class; costs are vectors {class: number},
-compared in the order of the classes.
+A feature has the level 0 as given, k with its smaller shape number k, and one more if it is hidden. What it costs to hide is a whole number
+of its class; costs are vectors {class: number}, compared in the order of the classes. In trees only two levels count: 0, visible with
+whatever shape, and 1, hidden.
 """
 import math
 from collections import defaultdict
 from fractions import Fraction
 
 import decided
+from exact import plane
 from form import NotRead, demand, index
 from geopackage import number_of
+from problem import Thing
+from repair import area_of, repaired
 from verdicts import Verdict
 
 LAST, UNIT, MOST = (1 << 32) - 1, 1000.0, 1 << 40
@@ -74,6 +78,8 @@ class Hiding:
         problem = self.problem
         if problem.is_barrier(fid) or fid in problem.skipped:
             return 0
+        if not problem.options.hide:
+            return 0
         if self.field is None:
             return 1
         value = number_of(problem.attributes[fid], self.field)
@@ -104,21 +110,58 @@ class Hiding:
         self.visible = lambda fid: fid not in left_out
         problem.look_at(self.visible)
 
+    def read_shapes(self, lines):
+        """The smaller shapes of features, as the file says: each lies in the one before it, and keeps enough of the area."""
+        problem = self.problem
+        problem.set_levels({})
+        problem.smaller, problem.taken, self.taken = {}, {}, {}
+        for told in lines:
+            fid, level, polygons = told["fid"], told["level"], told["polygons"]
+            demand(problem.options.trim, "smaller shapes, where none are wanted")
+            demand(fid in problem.place and fid not in problem.skipped, "there is no feature", fid)
+            demand(fid not in problem.rigid, "a smaller shape of", fid, ", whose shape never changes")
+            own = problem.smaller.setdefault(fid, [])
+            demand(level == len(own) + 1 == 1, "smaller shapes of", fid, "are not in order, or too many")
+            polygons = [[[tuple(p) for p in ring] for ring in polygon] for polygon in polygons]
+            demand(all(repaired(p) is p for p in polygons), "a smaller shape of", fid, "is no polygon")
+            shape = Thing(problem.lattice, polygons, [])
+            demand(plane.lies_in(shape.whole(), problem.whole(fid)), "a smaller shape of", fid, "does not lie in the one before")
+            area = float(sum(map(area_of, polygons), Fraction(0)))
+            demand(area >= problem.options.trim_keep * problem.area(fid) * (1 - 2 ** -40), "a smaller shape of", fid, "keeps too little")
+            self.demand_cut_back(fid, shape)
+            own.append(shape)
+            if told.get("taken"):
+                demand(fid not in self.hidden and fid not in self.taken, fid, "has two shapes, or is hidden")
+                self.taken[fid], problem.taken[fid] = level, polygons
+
+    def demand_cut_back(self, fid, shape):
+        """Fails unless the shape keeps its distance from barriers, except where its feature is crossed and kept."""
+        problem, whole = self.problem, shape.whole()
+        for key, owed in problem.owed.items():
+            barrier = problem.whole(key)
+            crosses = plane.boxes_near(problem.whole(fid).box, barrier.box) and problem.crosses(fid, key)
+            demand(not crosses or problem.options.crossed != "hide", "a smaller shape of", fid, ", which a line crosses")
+            if not (crosses and problem.options.crossed == "keep"):
+                demand(not plane.interiors_meet(whole, barrier) and not (owed > 0 and plane.nearer(whole, barrier, owed)),
+                       "a smaller shape of", fid, "is too near", key)
+
     def check_clause(self, told):
         """Returns the members."""
         members = [fid for fid, _ in told["members"]]
         demand(len(set(members)) == len(members), "a member is there twice")
         for fid, level in told["members"]:
-            demand(fid in self.problem.place and self.rank(fid), "a member that is never hidden:", fid)
-            demand(level == 0, "there is no clause about the level", level, "of", fid)
+            demand(fid in self.problem.place and (self.rank(fid) or level < self.shapes(fid)), "a member that is never hidden:", fid)
+            demand(level <= self.shapes(fid), "there is no clause about the level", level, "of", fid)
         among = set(members)
         self.problem.look_at(lambda fid: fid in among or self.rank(fid) == 0)
+        self.problem.set_levels({**{fid: len(own) for fid, own in self.problem.smaller.items()}, **dict(map(tuple, told["members"]))})
         listed, self.problem.listed = self.problem.listed, {}
         try:
             self.check_conflict(told)
         finally:
             self.problem.listed = listed
             self.problem.look_at(self.visible)
+            self.problem.set_levels(self.taken)
         return told["members"]
 
     def check_conflict(self, told):
@@ -153,8 +196,15 @@ class Hiding:
         demand(not ranges, "leaves are missing")
         return bound, frozenset(self.features)
 
+    def shapes(self, fid):
+        """The number of smaller shapes."""
+        return len(self.problem.smaller.get(fid, ()))
+
     def members(self, k):
+        """Of a clause that only hidden features satisfy, with the levels of trees."""
         found = self.clauses[index(k, len(self.clauses), "clause")]
+        demand(all(level == self.shapes(fid) for fid, level in found), "a clause that smaller features may meet:", k)
+        found = [(fid, 0) for fid, _ in found]
         self.features |= {fid for fid, _ in found}
         return found
 
@@ -193,4 +243,5 @@ class Hiding:
         for fid in self.hidden:
             hides = plus(hides, self.cost(fid, HIDDEN))
         demand(not is_less(hides, bound), "the bound is more than what is hidden")
-        return f"hidden {len(self.hidden)}, {len(self.clauses)} clauses with proofs; "
+        shapes = f"{len(self.taken)} of {sum(map(len, self.problem.smaller.values()))} smaller shapes, " if self.problem.smaller else ""
+        return f"hidden {len(self.hidden)}, {shapes}{len(self.clauses)} clauses with proofs; "

@@ -129,7 +129,11 @@ class Problem:
         for barrier in barriers:
             for number in (barrier[3] / 2, *barrier[4]):
                 self.lattice.hold(number)
+        self.rigid = source.fids(options.rigid_where)
         self.things = {fid: Thing(self.lattice, f[1], f[2]) for fid, f in layer.features.items()}
+        self.original = dict(self.things)  # the things as given; in self.things features have the shapes of their present levels
+        self.smaller, self.level = {}, {}  # of features: their smaller shapes, the largest first; their present levels above 0
+        self.taken = {}  # the polygons, in doubles, of features that are smaller in the result
         self.attributes = {fid: f[0] for fid, f in layer.features.items()}
         self.place = {fid: k for k, fid in enumerate(layer.features)}
         self.skipped = self.ignored | {fid for fid, thing in self.things.items() if not any(o.area for o in thing.outlines)}
@@ -137,6 +141,7 @@ class Problem:
         self.pairs, self.wholes = set(), {}
         self.listed = {}  # pairs: the kinds of their conflicts
         self.stood = {}   # pairs: see how_it_stood()
+        self.given_wholes = {}
         self.crossed = {}  # pairs of a feature and a barrier: see is_crossed()
         self.occupied = {}  # bodies and sides of squares: see prices.py
         self.sides = set()
@@ -188,6 +193,13 @@ class Problem:
             self.wholes[key] = self.things[key].whole()
         return self.wholes[key]
 
+    def whole_as_given(self, key):
+        if not self.level.get(key):
+            return self.whole(key)
+        if key not in self.given_wholes:
+            self.given_wholes[key] = self.original[key].whole()
+        return self.given_wholes[key]
+
     def is_barrier(self, key):
         return key in self.owed
 
@@ -200,11 +212,13 @@ class Problem:
 
     def is_crossed(self, a, b):
         """Does a line or point of one, a barrier, meet the interior of the other one where it stands, and may that stay so?"""
-        if not self.options.hide or self.options.crossed != "keep" or self.is_barrier(a) == self.is_barrier(b):
+        if not (self.options.hide or self.options.trim) or self.options.crossed != "keep" or self.is_barrier(a) == self.is_barrier(b):
             return False
-        feature, barrier = (b, a) if self.is_barrier(a) else (a, b)
+        return self.crosses(*((b, a) if self.is_barrier(a) else (a, b)))
+
+    def crosses(self, feature, barrier):
         if (feature, barrier) not in self.crossed:
-            p, q = self.whole(feature), plane.Outline(lines=self.things[barrier].lines)
+            p, q = self.whole_as_given(feature), plane.Outline(lines=self.things[barrier].lines)
             self.crossed[feature, barrier] = bool(q.edges) and plane.interiors_meet(p, q)
         return self.crossed[feature, barrier]
 
@@ -269,6 +283,17 @@ class Problem:
         """visible: whether a feature is there at all; None: all are. Blocks and their limits, what lies in what, and rows stay those of
         all features."""
         self.visible, self.partial = visible, {}
+
+    def set_levels(self, level):
+        """Gives features the shapes of these levels, and all others theirs as given. Blocks, anchors, rows, weights and what holds an
+        anchor do not depend on it."""
+        changed = {fid for fid in self.smaller if level.get(fid, 0) != self.level.get(fid, 0)}
+        self.level = {fid: level[fid] for fid in self.smaller if level.get(fid)}
+        for fid in changed:
+            self.things[fid] = self.smaller[fid][self.level[fid] - 1] if fid in self.level else self.original[fid]
+            self.wholes.pop(fid, None)
+        if changed:
+            self.stood, self.occupied = {}, {}
 
     def is_hidden(self, key):
         return self.visible is not None and not self.is_barrier(key) and not self.visible(key)
@@ -343,7 +368,7 @@ class Problem:
             return self.demand_part(key, corners)
         box = plane.box_of(part)
         members = [k for k in self.block(key) if plane.boxes_near(self.whole(k).box, box)]
-        members = [k for k in members if not self.things[k].holds_place(anchor)]
+        members = [k for k in members if not self.original.get(k, self.things[k]).holds_place(anchor)]
         for k in members:
             self.demand_owed(k, other)
         outlines = [o for k in members for o in self.things[k].outlines if o.box]
@@ -354,7 +379,7 @@ class Problem:
         corner, = corners
         self.demand_anchor_of(key, corner)
         place = self.lattice.point(corner)
-        demand(not self.things[other].holds_place(place), other, "holds the anchor of", key)
+        demand(not self.original.get(other, self.things[other]).holds_place(place), other, "holds the anchor of", key)
         return (place,)
 
     def list_conflicts(self, conflicts):
@@ -408,8 +433,8 @@ class Problem:
         if self.options.points:
             return self.points[fid][0]
         if fid not in self.side_anchors:
-            box, plain = self.whole(fid).box, self.anchor(fid)
-            members = [o for o in self.things[fid].outlines if o.box]
+            box, plain = self.whole_as_given(fid).box, self.anchor(fid)
+            members = [o for o in self.original[fid].outlines if o.box]
             lines = [e for key in self.sides for e in self.things[key].edges_near(box, 4 * (box[2] - box[0] + box[3] - box[1]))]
             self.side_anchors[fid] = side_anchor(members, lines, plain, self.lattice.unit, self.tolerance) or plain
         return self.side_anchors[fid]

@@ -52,6 +52,9 @@ class Result:
 
     def check_moves(self):
         problem = self.problem
+        for fid in problem.smaller:
+            if not problem.is_hidden(fid):
+                self.check_place(fid)
         for fid in self.moved():
             limit = problem.limit(fid)
             demand(limit is None or self.square(fid) <= Fraction(limit) ** 2, "the result moves", fid, "beyond its limit")
@@ -73,10 +76,15 @@ class Result:
             demand(arcs == self.arcs.get(fid), "the result has an arc of", fid, "elsewhere")
             return
         given, now = self.problem.given[fid], self.main[fid][1]
+        if fid in self.problem.level:
+            given = self.problem.taken[fid]
+            moved = [[[(x + dx, y + dy) for x, y in ring] for ring in polygon] for polygon in given]
+            demand(in_order(moved) == in_order(now), "the result has", fid, "elsewhere, or with another shape")
+            return
         if any(a is not b for a, b in zip(given, self.problem.standing[fid])):
             return
         moved = [[[(x + dx, y + dy) for x, y in ring] for ring in polygon] for polygon in given]
-        demand(moved == now, "the result has", fid, "elsewhere")
+        demand(moved == now, "the result has", fid, "elsewhere, or with another shape")
 
     def check_conflicts(self, conflicts):
         """The result lists the same pairs, of the same kinds, for the same reasons."""
@@ -88,3 +96,11 @@ class Result:
             listed.append(key(row["fid_a"], other, row["kind"], row["reason"] or "", row["blocked_by"] or ""))
         told = [key(c["a"], c["b"], c["kind"], c["reason"], ",".join(map(str, c["blocked_by"]))) for c in conflicts]
         demand(sorted(listed) == sorted(told), "the result lists other conflicts")
+
+
+def in_order(polygons):
+    """The polygons with each ring from its least corner on, in the direction of the lesser neighbour."""
+    def turned(ring):
+        k = ring.index(min(ring))
+        return min(ring[k:] + ring[:k], [ring[k]] + ring[:k][::-1] + ring[k + 1:][::-1])
+    return sorted(sorted(turned(list(map(tuple, ring))) for ring in polygon) for polygon in polygons)
