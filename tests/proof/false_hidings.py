@@ -5,7 +5,7 @@ from hiding import Hiding
 from judge_hiding import HidingJudge
 
 CASES = []
-OPTIONS = "--no-blocks --contained separate --gap 1 --max-shift 3 --hide --hide-weight 1"
+OPTIONS = "--no-blocks --contained separate --gap 1 --max-shift 3 --hide --hide-weight 1 --crossed hide"
 
 
 def lines_of(hidden, clauses, choices, bound):
@@ -53,6 +53,8 @@ ROADS = {1: box(0, 0, 10, 10), 2: box(40, 0, 50, 10), 3: box(80, 0, 90, 10)}
 EACH = [([1], 1, "road:1", "max_shift"), ([2], 2, "road:2", "max_shift"), ([1, 2], 1, "road:1", "max_shift")]
 case("share-below-nothing", "a share less than nothing", ROADS, [1, 2, 3], EACH,
      [([[1, 3000]], [{"shares": [[0, 1, 2000], [1, 1, 2000], [2, 1, -1000]]}])], [[1, 3000]], barriers=WALLS, best={1, 2})
+case("clause-of-a-kept-pair", "may stay as they stand", {1: ROADS[1]}, [1], [EACH[0]], [(ONE, [SHARE])], ONE,
+     OPTIONS.replace(" --crossed hide", ""), WALLS)
 APART = {1: box(0, 0, 10, 10), 2: box(15, 0, 25, 10)}
 case("clause-without-a-reason", "no proof of a clause", APART, [1], [([1, 2], 1, 2, "unresolved")], [(ONE, [SHARE])], ONE)
 case("clause-of-a-block", "are of one block", {1: box(0, 0, 10, 10, k=1), 2: box(1, 0, 11, 10, k=1)}, [1], [([1, 2], 1, 2, "max_shift")], [(ONE, [SHARE])], ONE,
