@@ -137,7 +137,7 @@ cat >"$work/Doxyfile" <<DOXY
 PROJECT_NAME = "libsunder"
 PROJECT_NUMBER = $version
 PROJECT_BRIEF = "Exact Minkowski sums, least separating translations, displacement of map layers"
-INPUT = src/sunder.h src/sunder_proof.h src/sunder_parts.h src/sunder_hiding.h
+INPUT = $(echo src/sunder*.h)
 INPUT_FILTER = "awk -f $work/comments.awk"
 FILTER_SOURCE_FILES = NO
 OUTPUT_DIRECTORY = $work

@@ -108,7 +108,7 @@ SUNDER_EXPERIMENTAL const sunder_hiding_class *sunder_report_hiding_classes(cons
  * smaller shapes if it is hidden. */
 SUNDER_EXPERIMENTAL size_t sunder_report_level(const sunder_report *report, size_t feature);
 
-/* A set of features, one of which needs a greater level, and the conflict that it was made of. */
+/* A set of features that cannot all keep their levels, and the conflict that it was made of. */
 typedef struct sunder_clause {
     const size_t *member;  /* [members] the features that may be hidden or become smaller, ascending */
     const size_t *thing;   /* [things] all features and barriers of the conflict or its proof, ascending; barrier k is

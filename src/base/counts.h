@@ -2,7 +2,7 @@
 #ifndef SUNDER_I_COUNTS_H
 #define SUNDER_I_COUNTS_H
 
-#include "sunder.h"
+#include "sunder_base.h"
 
 /* Adds `after` minus `before` to *to. */
 static inline void sunder_i_counts_add(sunder_counts *to, const sunder_counts *after, const sunder_counts *before)

@@ -2,7 +2,7 @@
 #ifndef SUNDER_I_ERROR_H
 #define SUNDER_I_ERROR_H
 
-#include "sunder.h"
+#include "sunder_base.h"
 
 /* Stores the error in *err, if err is not NULL, and returns status, so that a function can end with `return
  * sunder_i_fail(...)`. */

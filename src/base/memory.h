@@ -8,7 +8,6 @@
 #define SUNDER_I_MEMORY_H
 
 #include "base/error.h"
-#include "sunder.h"
 
 /* Allocates n * size bytes, uninitialised; returns NULL if the size overflows or if out of memory. If n * size == 0,
  * the result is a valid pointer. */

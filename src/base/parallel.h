@@ -2,7 +2,7 @@
 #ifndef SUNDER_I_PARALLEL_H
 #define SUNDER_I_PARALLEL_H
 
-#include "sunder.h"
+#include "sunder_base.h"
 
 /* Processes the items [begin, end). Results are stored by index, so that the order of work has no effect. */
 typedef sunder_status (*sunder_i_work)(void *context, size_t begin, size_t end, sunder_error *err);

@@ -4,6 +4,9 @@
 #include "base/sized_struct.h"
 
 #include "base/error.h"
+#include "sunder_layer.h"
+#include "sunder_route.h"
+#include "sunder_sum.h"
 
 #include <string.h>
 

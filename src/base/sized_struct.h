@@ -4,7 +4,7 @@
 #ifndef SUNDER_I_SIZED_STRUCT_H
 #define SUNDER_I_SIZED_STRUCT_H
 
-#include "sunder.h"
+#include "sunder_base.h"
 
 /* Writes `own`, with own_size bytes, to the caller's struct of `size` bytes: as much as fits, and zeros after it. */
 void sunder_i_sized_struct_write(void *given, size_t size, const void *own, size_t own_size);

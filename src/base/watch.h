@@ -16,7 +16,7 @@
 #ifndef SUNDER_I_WATCH_H
 #define SUNDER_I_WATCH_H
 
-#include "sunder.h"
+#include "sunder_base.h"
 
 #include <pthread.h>
 #include <stdatomic.h>

@@ -13,6 +13,7 @@
 
 #include "predicate/rational_point.h"
 #include "shape/shape.h"
+#include "sunder_sum.h"
 
 /* The largest number of vertices of a polygon for which OPTIMAL and MIXED are computed, in time of order r n n; larger
  * ones are decomposed by Hertel and Mehlhorn's method. */

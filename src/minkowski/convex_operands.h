@@ -4,6 +4,7 @@
 
 #include "shape/shape.h"
 #include "sum/sum_value.h"
+#include "sunder_sum.h"
 
 /* Returns true if p and q each are one convex polygon. */
 bool sunder_i_are_convex(const sunder_shape *p, const sunder_shape *q);

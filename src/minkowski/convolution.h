@@ -5,6 +5,7 @@
 
 #include "shape/shape.h"
 #include "sum/canonical_sum.h"
+#include "sunder_sum.h"
 
 /* A pair of a polygon of p and a polygon of q, which is convex. */
 typedef struct sunder_i_round {

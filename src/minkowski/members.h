@@ -5,6 +5,7 @@
 
 #include "shape/shape.h"
 #include "sum/sum_value.h"
+#include "sunder_sum.h"
 
 /* The polygons that are left for the general method. */
 typedef struct sunder_i_members_left {

@@ -5,6 +5,7 @@
 
 #include "shape/shape.h"
 #include "sum/canonical_sum.h"
+#include "sunder_sum.h"
 
 /* Sets the vertices and rings of `sum` to the sum of p and q, and sets *done. The sum's lattice must contain the
  * vertices at_p and at_q. If the reduced convolution does not prove the result, or may take longer than the general

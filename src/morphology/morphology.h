@@ -17,6 +17,7 @@
 #include "planar_map/planar_map.h"
 #include "shape/shape.h"
 #include "sum/sum_value.h"
+#include "sunder_sum.h"
 
 /* A closed set in units of a lattice: the polygons that its rings bound, with the interior on their left, and segments
  * and points without area. All arrays are in the arena. */

@@ -7,6 +7,7 @@
 #define SUNDER_I_FILTERED_POINT_H
 
 #include "sum/sum_value.h"
+#include "sunder_sum.h"
 
 typedef struct sunder_i_filtered_point {
     sunder_i_rational_point at;

@@ -6,6 +6,7 @@
 #include "base/extremes.h"
 #include "base/sized_struct.h"
 #include "base/watch.h"
+#include "sunder_route.h"
 
 #include <math.h>
 #include <string.h>

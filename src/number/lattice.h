@@ -21,7 +21,7 @@
 #define SUNDER_I_LATTICE_H
 
 #include "number/ratio.h"
-#include "sunder.h"
+#include "sunder_base.h"
 
 #include <math.h>
 #include <string.h>

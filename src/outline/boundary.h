@@ -11,6 +11,7 @@
 
 #include "outline/coverage.h"
 #include "sum/sum_value.h"
+#include "sunder_sum.h"
 
 /* Sets the vertices, rings, polygons, segments and points of *out from the coverage, whose vertices are on `lattice`
  * and are moved to the sum. `lines` are the lines of the stretches, `classes` is the number of classes of directions.

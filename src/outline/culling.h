@@ -20,6 +20,7 @@
 
 #include "outline/lines.h"
 #include "outline/pairs.h"
+#include "sunder_sum.h"
 
 typedef struct sunder_i_culled {
     sunder_i_pairs pairs;

@@ -3,6 +3,7 @@
 #define SUNDER_I_ORIENT_DOUBLE_H
 
 #include "predicate/predicate.h"
+#include "sunder_shape.h"
 
 #define SUNDER_I_UNSURE 2
 

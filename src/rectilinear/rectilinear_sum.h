@@ -4,6 +4,7 @@
 
 #include "shape/shape.h"
 #include "sum/sum_value.h"
+#include "sunder_sum.h"
 
 /* Sets the outline of an empty sum, whose lattice must contain the vertices at_p of p and at_q of q, and sets *done. If
  * a side is not parallel to an axis, the lattice is not narrow, or there would be too many rectangles, *done is false

@@ -4,6 +4,7 @@
 
 #include "rectilinear/rectangles.h"
 #include "sum/sum_value.h"
+#include "sunder_sum.h"
 
 /* Sets the outline of an empty sum, whose narrow lattice the coordinates refer to. Fails with SUNDER_ENOMEM or
  * SUNDER_ECANCEL; the caller frees the sum. */

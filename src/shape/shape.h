@@ -19,7 +19,7 @@
 #define SUNDER_I_SHAPE_H
 
 #include "number/lattice.h"
-#include "sunder.h"
+#include "sunder_shape.h"
 
 /* A vertex that is not a pair of doubles: (num[0], num[1]) / den * 2^exponent, den > 0 and odd. den.size == 0: the
  * vertex is a pair of doubles. */

@@ -10,6 +10,7 @@
 #define SUNDER_I_CANONICAL_SUM_H
 
 #include "sum/sum_value.h"
+#include "sunder_sum.h"
 
 typedef struct sunder_i_found_ring {
     size_t start, end; /* the range in sunder_i_found.vertex; the smallest vertex is the first */

@@ -4,6 +4,7 @@
 
 #include "planar_map/planar_map.h"
 #include "sum/sum_value.h"
+#include "sunder_sum.h"
 
 /* Sets the vertices, rings, polygons, segments and points of the sum from a marked map. Fails with SUNDER_ENOMEM. */
 sunder_status sunder_i_sum_from_map(sunder_i_planar_map *map, sunder_sum *sum, sunder_error *err);

@@ -4,6 +4,7 @@
 
 #include "planar_map/planar_map.h"
 #include "sum/sum_value.h"
+#include "sunder_sum.h"
 
 /* Makes a view of a marked map, which it owns from then on, also on failure. Fails with SUNDER_ENOMEM. */
 sunder_status sunder_i_map_view_take(sunder_i_planar_map *map, const sunder_sum *sum, sunder_map **out,

@@ -4,6 +4,7 @@
 
 #include "shape/shape.h"
 #include "sum/sum_value.h"
+#include "sunder_sum.h"
 
 /* Places p and q on one lattice, which is moved to the sum together with the origins: the points in *placed refer to
  * its pool. Fails with SUNDER_ENOMEM. */

@@ -3,6 +3,7 @@
 #define SUNDER_I_SUM_VALUE_H
 
 #include "predicate/predicate.h"
+#include "sunder_sum.h"
 
 struct sunder_sum {
     sunder_i_lattice lattice;

@@ -22,7 +22,7 @@ includes() {
         FNR == 1 { from = folder(FILENAME) }
         match($0, /^ *# *include "[^"]*"/) {
             split(substr($0, RSTART, RLENGTH), part, "\"")
-            if (part[2] !~ /^sunder(_proof|_parts|_hiding)?\.h$/) print from, folder(part[2]), FILENAME
+            if (part[2] !~ /^sunder(_[a-z]+)?\.h$/) print from, folder(part[2]), FILENAME
         }')
 }
 

@@ -46,5 +46,5 @@ done < <(cd "$root/src" && awk '
         sub(/_(STATUS|KIND)$/, "", word)
         if (word == "SUNDER" || index(name, word "_") == 1) next # the values of sunder_status do not have the prefix
         print FILENAME ": " name " does not carry the name of " type
-    }' sunder.h sunder_proof.h sunder_parts.h sunder_hiding.h)
+    }' sunder*.h)
 finish

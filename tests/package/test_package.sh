@@ -70,8 +70,8 @@ interface() { # name of the language, compiler, the compiler's option for the la
     local name=$1 compiler=$2 language=$3 standard header got
     shift 3
     for standard in "$@"; do
-        for header in sunder sunder_proof sunder_parts sunder_hiding; do
-            printf '#include <%s.h>\n' "$header" >"$work/first.c"
+        for header in "$SUNDER_SOURCE"/src/sunder*.h; do
+            printf '#include <%s>\n' "${header##*/}" >"$work/first.c"
             "$compiler" -x "$language" "-std=$standard" "${flags[@]}" -fsyntax-only "$work/first.c"
         done
         "$compiler" -x "$language" "-std=$standard" "${flags[@]}" "$SUNDER_SOURCE/tests/package/interface.c" -x none \

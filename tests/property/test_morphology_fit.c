@@ -5,6 +5,7 @@
 #include "failing.h"
 #include "morphology/morphology.h"
 #include "random.h"
+#include "sunder.h"
 
 #include <math.h>
 #include <setjmp.h>

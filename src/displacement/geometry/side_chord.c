@@ -20,7 +20,7 @@
 #include "displacement/geometry/tuning.h"
 
 #include "base/extremes.h"
-#include "sunder.h"
+#include "sunder_shape.h"
 
 #include <math.h>
 

@@ -3,7 +3,7 @@
 #ifndef SUNDER_I_LAYER_H
 #define SUNDER_I_LAYER_H
 
-#include "sunder.h"
+#include "sunder_layer.h"
 #include "sunder_hiding.h"
 #include <stdbool.h>
 #include <stdint.h>

@@ -4,7 +4,7 @@
 
 #include "base/list.h"
 #include "displacement/layer/relate.h"
-#include "sunder.h"
+#include "sunder_base.h"
 #include <stdbool.h>
 
 typedef struct sunder_i_model sunder_i_model;

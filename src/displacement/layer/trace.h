@@ -1,4 +1,4 @@
-/* Trace events of the work on a layer, for developers (sunder_trace in sunder.h).
+/* Trace events of the work on a layer, for developers (sunder_trace in sunder_layer.h).
  *
  * A stage of a cluster or a group records what it did in the log of that cluster or group, on any thread. The thread
  * that drives the rounds passes the logs to the caller, in the order of clusters and groups. So the events and their

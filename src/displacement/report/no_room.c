@@ -283,7 +283,7 @@ static sunder_status ask_chain(const asking *g, matter *m, sunder_i_subproblem *
 
 /* For each unresolved conflict of a cluster, unless both bodies can move and one has no limit: looks for a chain
  * through its pair. reducing: NULL if the chains are to prove that there is no room; otherwise they prove that the
- * conflict is crowded (sunder.h), and *reducing is the budget for making these proofs irreducible. */
+ * conflict is crowded (sunder_layer.h), and *reducing is the budget for making these proofs irreducible. */
 static sunder_status ask_chains(const asking *g, matter *first, const matter *last, sunder_i_subproblem *q,
                                 uint64_t *reducing, sunder_error *err)
 {

@@ -3,6 +3,7 @@
 #include "base/sort.h"
 #include "failing.h"
 #include "random.h"
+#include "sunder.h"
 
 #include <gmp.h>
 #include <setjmp.h>

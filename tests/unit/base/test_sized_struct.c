@@ -3,6 +3,7 @@
  * The struct of a caller fills a heap block of exactly its size, so that sanitizers and valgrind detect reads and
  * writes beyond its end. */
 #include "base/sized_struct.h"
+#include "sunder.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -84,7 +84,7 @@ static void take_items(sunder_i_plane *g, sunder_i_plane_item *item, const sunde
         if (sunder_i_plane_is_in(item->box, u) && run[item->run].asked) g->place[g->about_place++] = item;
 }
 
-/* A short list is tested completely, without branches, half of which would be mispredicted. */
+/* A short list is tested completely and without branches: the processor would mispredict half of them. */
 static void take_few(sunder_i_plane *g, const double u[2])
 {
     size_t n = 0;

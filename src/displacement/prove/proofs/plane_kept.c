@@ -1,5 +1,5 @@
 /* A cache of the planes of relative moves, for questions about the same bodies. Two blocks of dozens of houses have a
- * hundred conflicts, each of which is examined, and again without each feature of its proof (report/no_room.c). The
+ * hundred conflicts; each is examined, and again without each feature of its proof (report/no_room.c). The
  * obstacles are the same each time, tens of thousands of them, and so are the half-planes of all except those in
  * question. The cache only saves time: answers are the same, and their cost is counted the same. */
 #include "displacement/prove/proofs/plane.h"
