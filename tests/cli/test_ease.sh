@@ -54,6 +54,16 @@ jq -e '.rows.rows == 1 and (.displacement.cost - (20.25 + 9 + 7.5 + 2 * 20.25 * 
     (.rows.kink_p95 - 4.5 / 11 | fabs) < 1e-6' follow.json >/dev/null ||
     fail "neighbours in a row do not follow: $(jq -c '.displacement, .rows' follow.json)"
 
+# A house stands on one end of a road that returns 16 m farther on, and has to be 8 m from both ends. The nearest place
+# with that distance is 16 m on the left. But the pair lacks its distance and the length of the least translation, which
+# is 2 m to the right: half-way between the two ends it lacks only 5 m. F is 5^2 + 4 * 6 * 5 + 30 * 5^2.
+printf '%s\n' WKT,most '"POLYGON((-2 0,8 0,8 20,-2 20,-2 0))",6' | layer bend.gpkg bend POLYGON
+printf '%s\n' WKT,w '"LINESTRING(0 -50,0 100,16 100,16 -50)",0' | layer bent_road.gpkg bent_road LINESTRING
+expect 3 separate bend.gpkg eased_bend.gpkg --rows no --gap 8 --max-shift-field most --barrier bent_road.gpkg,side=no --stats bend.json
+jq -e '(.displacement | (.cost - 895 | fabs) < 1e-6 and (.cost - .lower_bound) < 1e-5 * .cost) and
+    (.shortfall.sum - 5 | fabs) < 1e-6' bend.json >/dev/null ||
+    fail "between two ends of a road: $(jq -c '.displacement, .shortfall' bend.json)"
+
 # The default is 30, also with --proof.
 mv o.gpkg eased.gpkg
 expect 3 "${words[@]}"

@@ -82,7 +82,7 @@ void sunder_i_search_free(sunder_i_search *search)
     sunder_i_free(search->restored);
     sunder_i_rtree_free(&search->visited);
     sunder_i_free_all(search->visited_at, search->about.item, search->scratch.xy, search->shortfall,
-                      search->creditor.item, search->tight);
+                      search->creditor.item, search->member, search->tight);
     sunder_i_grown_cache_free(&search->grown);
     sunder_i_obstacle_cache_free(&search->cache);
     sunder_i_measures_free(&search->measures);

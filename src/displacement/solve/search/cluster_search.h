@@ -19,15 +19,22 @@ typedef struct sunder_i_clash {
     double violation; /* the shortfall of their distance */
 } sunder_i_clash;
 
-/* What a pair that is left in conflict still lacks: the distance of body i from its nearest place at which it keeps the
- * full distance from the others, which are one body, or the parts of one barrier. */
+/* What a pair that is left in conflict still lacks (missing.c): body i from the others, which are one body, or the
+ * parts of one barrier. */
 typedef struct sunder_i_shortfall {
     uint32_t i, other, others; /* indices in the search: i may move, and search->creditor[other ...] */
     sunder_i_price price;
     double at[2], from[2];    /* if `known`: the moves of i and of the others for which the rest was computed */
-    double place[2], missing; /* the nearest such move of i; INFINITY: none was found */
+    double place[2], missing; /* the move of i at the end of the way that it lacks; INFINITY: none was found */
     bool known;
 } sunder_i_shortfall;
+
+/* A member of a barrier or of a body, and a member of a body that may move, and what they lack. */
+typedef struct sunder_i_member_pair {
+    uint32_t a, b;              /* features; a barrier counts as a whole */
+    double owed, missing, n[2]; /* n: the direction in which b lacks that */
+    bool overlaps;
+} sunder_i_member_pair;
 
 /* Two bodies that keep their distance, or a body and the parts of one barrier, and their full distance, to first order:
  * n.(t_j - t_i) >= d. */
@@ -66,7 +73,10 @@ typedef struct sunder_i_search {
     size_t restored_n, restored_capacity;
     sunder_i_shortfall *shortfall; /* [shortfalls] of the pairs that are eased; none unless sunder_i_search_ease() */
     size_t shortfalls, shortfall_capacity;
-    sunder_i_list creditor;                       /* the other bodies of these pairs */
+    sunder_i_list creditor;       /* the other bodies of these pairs */
+    bool to_solved;               /* they lack the way to the nearest place at which they are solved */
+    sunder_i_member_pair *member; /* [members] scratch: the members of one such pair */
+    size_t members, member_capacity;
     sunder_i_short_pair *tight; /* [tights] pairs that stand nearer than their full distance, as they were found last */
     size_t tights, tight_capacity;
     bool fully;        /* what pairs lack is measured by their full distances */

@@ -2,7 +2,11 @@
  *
  * Two pieces lack the distance minus what lies between them, and two bodies, or a body and a barrier, the most that two
  * of their pieces lack, along the shortest link of these. That is known near the full distance, where tight pairs
- * stand. A pair that is left in conflict may overlap: it lacks the way to the nearest place at which it is solved. */
+ * stand. A pair that is left in conflict may overlap. Two members of it that overlap lack their distance, and the
+ * length of the least translation that takes their interiors apart; the pair lacks the most that two members lack. That
+ * is what the report counts and prices. The way to the nearest place at which the pair is solved may be much longer,
+ * where that is not on the side of the least translation. It counts while the search looks for the pairs that can be
+ * solved (elastic.c). */
 #include "displacement/geometry/free_places.h"
 #include "displacement/solve/search/search_stages.h"
 #include "displacement/solve/search/tuning.h"
@@ -84,25 +88,35 @@ void sunder_i_search_measure_pair(sunder_i_search *search, const double u[2], do
 
 /* ---- Pairs left in conflict -------------------------------------------------------------------------------------- */
 
+/* of: NULL, or the members whose pieces alone count, and without their distance. */
 typedef struct forbidding {
     sunder_i_obstacles *obstacles;
     const double *shift;
+    const sunder_i_member_pair *of;
 } forbidding;
+
+static bool is_of(const sunder_i_search *s, const sunder_i_piece_pair *pair, const sunder_i_member_pair *m)
+{
+    return sunder_i_whole_of(s->model, pair->a->feature) == m->a && pair->b->feature == m->b;
+}
 
 static void forbid_pieces(sunder_i_search *s, const sunder_i_piece_pair *pair, void *context)
 {
     const forbidding *f = context;
     double gap;
-    if (pair->shadow || is_kept(s, pair)) return;
+    if (pair->shadow || is_kept(s, pair) || (f->of && (pair->inclusion != SUNDER_I_LAPSED || !is_of(s, pair, f->of))))
+        return;
     const size_t n = sunder_i_search_obstacle(s, pair, &gap);
     for (size_t k = 0; k < 2 * n; k++) s->scratch.xy[k] += f->shift[k & 1];
     s->steps += OBSTACLE_WORK;
-    gap += slack_of(s, pair);
+    gap = f->of ? 0 : gap + slack_of(s, pair);
     if (n) sunder_i_obstacles_add(f->obstacles, s->scratch.xy, n, sunder_i_max(gap, 0) + 2 * s->tolerance);
 }
 
-/* Finds the nearest place within `reach` at which body i keeps the full distance from the others. */
-static bool find_place(sunder_i_search *s, const sunder_i_shortfall *f, const double *t, double reach, double place[2])
+/* Finds the nearest place within `reach` at which body i keeps the full distance from the others. With members `of`,
+ * the nearest one at which these two do not overlap. */
+static bool find_place(sunder_i_search *s, const sunder_i_shortfall *f, const sunder_i_member_pair *of, const double *t,
+                       double reach, double place[2])
 {
     const double *at = t + 2 * (size_t)f->i;
     double found[1][2];
@@ -110,7 +124,7 @@ static bool find_place(sunder_i_search *s, const sunder_i_shortfall *f, const do
     for (uint32_t k = f->other; k < f->other + f->others && !s->failed; k++) {
         const uint32_t j = s->creditor.item[k];
         const double *from = t + 2 * (size_t)j, u[2] = {at[0] - from[0], at[1] - from[1]};
-        forbidding all = {&s->obstacles, from};
+        forbidding all = {&s->obstacles, from, of};
         sunder_i_search_piece_pairs(s, j, f->i, u, reach + sunder_i_search_full_gap(s), false, forbid_pieces, &all);
     }
     const size_t n = sunder_i_free_places(&s->obstacles, at, reach, 0, 1, found, &s->steps, &s->failed);
@@ -140,6 +154,77 @@ static bool is_short(sunder_i_search *s, const sunder_i_shortfall *f, const doub
     return yields;
 }
 
+/* Finds the nearest such place, in ever wider circles. Returns false if there is none. */
+static bool find_nearest(sunder_i_search *s, const sunder_i_shortfall *f, const sunder_i_member_pair *of,
+                         const double *t, double place[2])
+{
+    const sunder_i_body *p = &s->model->body[s->body[f->i]];
+    const double size = sunder_i_max(p->box[2] - p->box[0], p->box[3] - p->box[1]) + s->gap;
+    bool found = false;
+    for (double reach = size / 2; reach <= BEYOND_ALL * size && !found && !s->failed; reach *= PAIR_GROWTH)
+        found = find_place(s, f, of, t, reach, place);
+    return found;
+}
+
+/* ---- What their members lack ------------------------------------------------------------------------------------- */
+
+/* Notes what two pieces lack for the pair of their members. */
+static void note_pieces(sunder_i_search *s, const sunder_i_piece_pair *pair, void *context)
+{
+    const double *u = context;
+    double gap;
+    size_t n, k = 0;
+    if (pair->shadow || pair->inclusion != SUNDER_I_LAPSED || is_kept(s, pair)) return;
+    const sunder_i_obstacle_edge *edge = sunder_i_search_edges(s, pair, &n, &gap);
+    if (!edge) return;
+    const sunder_i_support h = sunder_i_search_support(pair, edge, n, u);
+    const double owed = gap + slack_of(s, pair);
+    while (k < s->members && !is_of(s, pair, &s->member[k])) k++;
+    if (k == s->members) {
+        if (!sunder_i_reserve(&s->member, &s->member_capacity, s->members + 1, sizeof *s->member)) {
+            s->failed = true;
+            return;
+        }
+        s->member[s->members++] = (sunder_i_member_pair){
+            .a = sunder_i_whole_of(s->model, pair->a->feature), .b = pair->b->feature, .missing = -INFINITY};
+    }
+    sunder_i_member_pair *m = &s->member[k];
+    if (!(owed - h.distance > m->missing)) return;
+    *m = (sunder_i_member_pair){m->a, m->b, owed, owed - h.distance, {h.n[0], h.n[1]}, h.distance < 0};
+}
+
+/* If two members overlap, they lack their distance and the way to the nearest place at which they do not. */
+static void measure_overlap(sunder_i_search *s, const sunder_i_shortfall *f, const double *t, sunder_i_member_pair *m)
+{
+    double place[2];
+    if (!find_nearest(s, f, m, t, place)) {
+        m->missing = INFINITY;
+        return;
+    }
+    const double away[2] = {place[0] - f->at[0], place[1] - f->at[1]}, depth = hypot(away[0], away[1]);
+    if (!(depth > 0) || !(depth + m->owed > m->missing)) return;
+    m->missing = depth + m->owed;
+    for (int c = 0; c < 2; c++) m->n[c] = away[c] / depth;
+}
+
+/* Sets what the pair lacks: the most that two of its members lack, as the report counts it. */
+static void measure_members(sunder_i_search *s, sunder_i_shortfall *f, const double *t)
+{
+    s->members = 0;
+    for (uint32_t k = f->other; k < f->other + f->others && !s->failed; k++) {
+        const uint32_t j = s->creditor.item[k];
+        double u[2] = {f->at[0] - t[2 * j], f->at[1] - t[2 * j + 1]};
+        sunder_i_search_piece_pairs(s, j, f->i, u, sunder_i_search_full_gap(s), false, note_pieces, u);
+    }
+    for (size_t k = 0; k < s->members && !s->failed; k++) {
+        sunder_i_member_pair *m = &s->member[k];
+        if (m->overlaps) measure_overlap(s, f, t, m);
+        if (!(m->missing > f->missing)) continue;
+        f->missing = m->missing;
+        for (int c = 0; c < 2; c++) f->place[c] = f->at[c] + (m->missing < INFINITY ? m->missing * m->n[c] : 0);
+    }
+}
+
 /* With a full gap, neighbours in a row also lack what they lack of its rule; the nearest place is then along it. */
 static void measure_along(const sunder_i_search *s, sunder_i_shortfall *f)
 {
@@ -160,12 +245,12 @@ void sunder_i_search_measure_shortfall(sunder_i_search *search, sunder_i_shortfa
     f->known = true;
     f->missing = 0;
     if (is_short(search, f, t)) {
-        const sunder_i_body *p = &search->model->body[search->body[f->i]];
-        const double size = sunder_i_max(p->box[2] - p->box[0], p->box[3] - p->box[1]) + search->gap;
-        f->missing = INFINITY;
-        for (double reach = size / 2; reach <= BEYOND_ALL * size && f->missing == INFINITY && !search->failed;
-             reach *= PAIR_GROWTH)
-            if (find_place(search, f, t, reach, f->place)) f->missing = hypot(f->place[0] - at[0], f->place[1] - at[1]);
+        if (!search->to_solved)
+            measure_members(search, f, t);
+        else if (find_nearest(search, f, NULL, t, f->place))
+            f->missing = hypot(f->place[0] - at[0], f->place[1] - at[1]);
+        else
+            f->missing = INFINITY;
     }
     if (search->fully) measure_along(search, f);
 }

@@ -1,10 +1,9 @@
 /* The price of what pairs that are left in conflict still lack, and the constraints that ease them.
  *
- * A pair lacks s (missing.c): the distance from its relative move to the nearest one at which it is solved. That has a
- * price (../../layer/prices.h). Let p be the nearest place of body i at which the pair is solved, and n the direction
- * to it. To first order s is n.(p - t_i), so a program has the constraint n.t_i >= n.p with this price. If the boundary
- * of the solved places is straight nearby, this is exact. Otherwise the next program has a constraint with another
- * direction, and a step that is no cheaper is shortened (descend.c). */
+ * A pair lacks s (missing.c), in a direction n of body i, and that has a price (../../layer/prices.h). Let p be the
+ * place of body i at the end of that way. To first order s is n.(p - t_i), so a program has the constraint n.t_i >= n.p
+ * with this price. If the boundary of the places nearby is straight, this is exact. Otherwise the next program has a
+ * constraint with another direction, and a step that is no cheaper is shortened (descend.c). */
 #include "displacement/solve/search/search_stages.h"
 
 #include <math.h>
@@ -64,7 +63,11 @@ static bool list_pairs(sunder_i_search *search, const sunder_i_relaxations *all)
 
 bool sunder_i_search_ease(sunder_i_search *search) { return list_pairs(search, &search->model->relaxations); }
 
-bool sunder_i_search_ease_own(sunder_i_search *search) { return list_pairs(search, &search->relaxations); }
+bool sunder_i_search_ease_own(sunder_i_search *search)
+{
+    search->to_solved = true;
+    return list_pairs(search, &search->relaxations);
+}
 
 /* ---- Price and constraints --------------------------------------------------------------------------------------- */
 
