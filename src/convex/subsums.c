@@ -111,8 +111,8 @@ static bool add_all(const operand *p, const operand *q, sunder_i_convex_pieces *
 
 /* If there are fewer subsums than this, all are computed. */
 #define FEW_SUBSUMS 256
-/* The cost of computing a subsum and finding it covered, in looks at pairs: about ten thousand instructions (stars,
- * random polygons). */
+/* The work of computing a subsum that turns out to be covered, as the number of pairs that are examined in that time:
+ * about ten thousand instructions (stars, random polygons). */
 #define SUBSUM_WORTH 128.0
 
 static bool add_needed(const operand *p, const operand *q, sunder_i_convex_pieces *out)

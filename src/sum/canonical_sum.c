@@ -37,7 +37,7 @@ static const sunder_i_hpoint *first_place(const sunder_i_found *f, uint32_t ring
     return &f->place[f->vertex[f->ring[ring].start]];
 }
 
-/* Sorts n rings whose order the doubles do not decide. Returns false if out of memory. */
+/* Sorts n rings by exact coordinates, since doubles do not decide their order. Returns false if out of memory. */
 static bool settle_rings(sunder_i_found *f, const sunder_i_valued *k, size_t n, uint32_t *order)
 {
     for (size_t i = 0; i < n; i++) order[i] = k[i].item;

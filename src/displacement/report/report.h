@@ -194,8 +194,8 @@ typedef struct sunder_i_independent_parts {
     double *by_trees;  /* [bodies] at first equal to by_pairs; then what the trees of these pairs prove, or 0 if no
                         * trees are made */
     double *by_groups; /* [bodies] the sum of what the contact groups prove */
-    double *by_areas;  /* [bodies] what prices of area prove, if that is more, otherwise 0; -1 if it is included in the
-                        * bound of another part */
+    double *by_areas;  /* [bodies] the bound by prices of area where it is greater than by_groups, otherwise 0; -1 if
+                        * the bound of another part includes it */
     struct sunder_i_area_bound *area; /* [areas] the bounds by area */
     size_t areas;
 } sunder_i_independent_parts;

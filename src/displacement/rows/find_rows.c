@@ -182,9 +182,10 @@ static void join_surroundings(const row_search *s, uint32_t body, int steps, dou
     }
 }
 
-/* Sets rows->reach. Which edges a body chooses depends on its surroundings. Whether its neighbour has chosen the same
- * edge depends on those of the neighbour, and whether the row goes on beyond the neighbour on those of the next body.
- * Called between choose_edges() and drop_one_sided(). */
+/* Sets rows->reach, the box of all that can change the row at a body. The edges that a body chooses depend on its own
+ * surroundings. An edge counts only if both of its bodies chose it, so the surroundings of its neighbours matter; the
+ * row continues by edges of these, so those of their neighbours do. Called between choose_edges() and
+ * drop_one_sided(). */
 static bool find_reach(const row_search *s, sunder_i_rows *rows)
 {
     if (!s->about) return true;

@@ -249,13 +249,14 @@ static bool gather_points(sunder_i_tree *t, sunder_i_tree_eased *e, const sunder
     return true;
 }
 
-/* The corners of a triangle under the lower hull, around u = 0, and their shares in u. */
+/* A facet of the lower hull of points with a place and a height: three corners, and the barycentric coordinates of u in
+ * the triangle of their places. */
 typedef struct facet {
     double at[3][3], share[3];
-    bool far[3]; /* not one of the points */
+    bool far[3]; /* the corner is not a point, but one of the large triangle with which the search begins */
 } facet;
 
-/* Sets x to the shares of the three corners in a place, which add up to 1. Returns false if they are on a line. */
+/* Sets x to the barycentric coordinates of u in the triangle of the facet. Returns false if that has no area. */
 static bool shares_of(const facet *f, const double u[2], double x[3])
 {
     const double *a = f->at[0], *b = f->at[1], *c = f->at[2];
@@ -266,7 +267,7 @@ static bool shares_of(const facet *f, const double u[2], double x[3])
     return area != 0 && isfinite(x[1] + x[2]);
 }
 
-/* The plane through the corners: gradient g, height at 0. */
+/* Sets g to the gradient of the plane through the corners, *height to its height at 0. False as for shares_of(). */
 static bool plane_of(const facet *f, double g[2], double *height)
 {
     const double *a = f->at[0], *b = f->at[1], *c = f->at[2];
@@ -278,7 +279,8 @@ static bool plane_of(const facet *f, double g[2], double *height)
     return area != 0 && isfinite(g[0] + g[1] + *height);
 }
 
-/* Replaces the corner of the facet whose share vanishes first as that of the point grows. */
+/* Makes the point a corner in place of one of the three, so that u stays in the triangle: the one whose share becomes
+ * zero first as the share of the point grows. Returns false if there is none. */
 static bool exchange(facet *f, const double point[3])
 {
     double x[3], least = INFINITY;
@@ -297,8 +299,8 @@ static bool exchange(facet *f, const double point[3])
     return true;
 }
 
-/* Exchanges corners until no point is below the plane. Corners that are no points have the height `far`. Returns false
- * if u is not between the points. */
+/* Exchanges corners until no point is below the plane of the facet; a corner that is not a point has the height `far`.
+ * Returns false if such a corner keeps a share, since u is then outside the convex hull of the places. */
 static bool lower_facet(facet *f, double (*at)[3], size_t n, double size, double far, double g[2], double *height,
                         uint64_t *steps)
 {

@@ -155,7 +155,7 @@ static size_t put_back(reordering *r, size_t n)
     return in_vain ? ORDER_IN_VAIN : !(r->cost < before);
 }
 
-/* About the work of searching a place for each movable body, in pairs of pieces. */
+/* Estimates the number of pairs of pieces to examine in the search of a place for each movable body. */
 static uint64_t search_work(const sunder_i_search *s)
 {
     uint64_t own = 0, all = 0;
