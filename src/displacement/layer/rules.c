@@ -30,39 +30,35 @@ static unsigned count_processors(void)
     return n < 1 ? 1 : n > MOST_THREADS ? MOST_THREADS : (unsigned)n;
 }
 
-static sunder_status check_rows(const sunder_layer_options *options, sunder_error *err)
+/* Fails if one of the options that are lengths, prices or factors is out of its range. */
+static sunder_status check_amounts(const sunder_layer_options *o, sunder_error *err)
 {
-    if ((int)options->rows < SUNDER_ROWS_NONE || (int)options->rows > SUNDER_ROWS_GIVEN)
-        return sunder_i_fail(err, SUNDER_EARG, "no such choice of rows: %d", (int)options->rows);
-    for (int k = 0; k < 2; k++)
-        if (!(options->row_stiffness[k] >= 0) || !isfinite(options->row_stiffness[k]))
-            return sunder_i_fail(err, SUNDER_EARG, "the stiffness of rows, %g, is negative or not finite",
-                                 options->row_stiffness[k]);
-    if (isnan(options->kink)) return sunder_i_fail(err, SUNDER_EARG, "the kink that counts is not a number");
-    return SUNDER_OK;
-}
-
-static sunder_status check_ease(const sunder_layer_options *options, sunder_error *err)
-{
-    if (!(options->ease >= 0) || !isfinite(options->ease))
-        return sunder_i_fail(err, SUNDER_EARG, "the price of easing, %g, is negative or not finite", options->ease);
-    return SUNDER_OK;
-}
-
-static sunder_status check_full_gap(const sunder_layer_options *options, sunder_error *err)
-{
-    if (!(options->full_gap >= 0) || !isfinite(options->full_gap))
-        return sunder_i_fail(err, SUNDER_EARG, "the full gap, %g, is negative or not finite", options->full_gap);
+    const struct {
+        const char *name;
+        double value;
+    } amount[] = {{"gap", o->gap},
+                  {"full gap", o->full_gap},
+                  {"tolerance of thin overlaps", o->thin},
+                  {"effort", o->effort},
+                  {"stiffness of rows", o->row_stiffness[0]},
+                  {"stiffness of rows", o->row_stiffness[1]},
+                  {"price of easing", o->ease}};
+    for (size_t k = 0; k < sizeof amount / sizeof *amount; k++)
+        if (!(amount[k].value >= 0) || !isfinite(amount[k].value))
+            return sunder_i_fail(err, SUNDER_EARG, "the %s, %g, is negative or not finite", amount[k].name,
+                                 amount[k].value);
+    if (!(o->barrier_reach >= 0))
+        return sunder_i_fail(err, SUNDER_EARG, "the reach of barriers, %g, is negative or not a number",
+                             o->barrier_reach);
+    if (isnan(o->kink)) return sunder_i_fail(err, SUNDER_EARG, "the kink that counts is not a number");
+    if (isnan(o->touch_tolerance) || o->touch_tolerance == INFINITY)
+        return sunder_i_fail(err, SUNDER_EARG, "the touch tolerance, %g, is not finite", o->touch_tolerance);
     return SUNDER_OK;
 }
 
 sunder_status sunder_i_rules_of(const sunder_layer_options *options, sunder_i_rules *rules, sunder_error *err)
 {
-    if (!(options->gap >= 0) || !isfinite(options->gap))
-        return sunder_i_fail(err, SUNDER_EARG, "the gap, %g, is negative or not finite", options->gap);
-    if (isnan(options->touch_tolerance) || options->touch_tolerance == INFINITY)
-        return sunder_i_fail(err, SUNDER_EARG, "the touch tolerance, %g, is not finite", options->touch_tolerance);
-    sunder_status status = check_full_gap(options, err);
+    const sunder_status status = check_amounts(options, err);
     if (status) return status;
     const double full = sunder_i_max(options->gap, options->full_gap),
                  tolerance = options->touch_tolerance < 0 ? full / 10 : options->touch_tolerance;
@@ -71,17 +67,8 @@ sunder_status sunder_i_rules_of(const sunder_layer_options *options, sunder_i_ru
                              full);
     if ((int)options->contained < SUNDER_CONTAINMENT_BLOCK || (int)options->contained > SUNDER_CONTAINMENT_SEPARATE)
         return sunder_i_fail(err, SUNDER_EARG, "no such treatment of contained features: %d", (int)options->contained);
-    if (!(options->thin >= 0) || !isfinite(options->thin))
-        return sunder_i_fail(err, SUNDER_EARG, "the tolerance of thin overlaps, %g, is negative or not finite",
-                             options->thin);
-    if (!(options->effort >= 0) || !isfinite(options->effort))
-        return sunder_i_fail(err, SUNDER_EARG, "the effort, %g, is negative or not finite", options->effort);
-    if (!(options->barrier_reach >= 0))
-        return sunder_i_fail(err, SUNDER_EARG, "the reach of barriers, %g, is negative or not a number",
-                             options->barrier_reach);
-    status = check_rows(options, err);
-    if (!status) status = check_ease(options, err);
-    if (status) return status;
+    if ((int)options->rows < SUNDER_ROWS_NONE || (int)options->rows > SUNDER_ROWS_GIVEN)
+        return sunder_i_fail(err, SUNDER_EARG, "no such choice of rows: %d", (int)options->rows);
     rules->gap = options->gap;
     rules->full_gap = full;
     rules->tolerance = tolerance;
