@@ -40,6 +40,12 @@ expect 0 separate result.gpkg again.gpkg -l houses --output-layer a --where "sun
     --ease no --hide "${street[@]}" --stats again.json
 same "$(jq .hidden.count again.json)" 0 "the result again:"
 
+# Through a whole town: 80 houses lack 0.1 m each. No house may go farther than 3.05 m, so 32 in a line are too many from
+# either end, and in between.
+houses town.gpkg 80 11 10
+printf 'WKT,k\n"LINESTRING(-50 -0.5,950 -0.5)",1\n"LINESTRING(-50 10.5,950 10.5)",1\n' | layer long_lines.gpkg lines LINESTRING
+hides "sets through a whole town" '[2,2,1,1]' town.gpkg --gap 1.1 --max-shift 3.05 --fixed-where 'fixed = 1' --barrier long_lines.gpkg,gap=0.5
+
 # A church of class 0 in the road stays, with its reason; the house between it and a wall goes; an important house that
 # stands in the road as well goes, whatever its class.
 printf '%s\n' WKT,class '"POLYGON((0 0,20 0,20 30,0 30))",0' '"POLYGON((20.5 0,30.5 0,30.5 10,20.5 10))",1' '"POLYGON((0 50,20 50,20 60,0 60))",1' |
