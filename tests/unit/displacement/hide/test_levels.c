@@ -13,7 +13,7 @@
 
 enum { LEVELS = 50 };
 
-/* Shapes that each end a metre before the one before: from 0 to 99, ..., 50. The last ones are freed by free_levels(). */
+/* Makes shapes, each a metre shorter than the one before: from 0 to 99, ..., 50. free_levels() frees them. */
 static void make_levels(sunder_level *level)
 {
     for (size_t k = 0; k < LEVELS; k++) {
