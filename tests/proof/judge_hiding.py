@@ -17,14 +17,14 @@ class HidingJudge:
         return self.wrong_with_clause(line) if "clause" in line else self.wrong_with_tree(line, [k for k in lines if "clause" in k])
 
     def wrong_with_clause(self, line):
-        problem, members, before = self.problem, {fid for fid, _ in line["members"]}, self.problem.visible
-        if any(level for _, level in line["members"]):
-            return "a clause about another level"
+        problem, members, before, level = self.problem, dict(line["members"]), self.problem.visible, self.problem.level
         problem.look_at(lambda fid: fid in members or self.hiding.rank(fid) == 0)
+        problem.set_levels({**{fid: len(own) for fid, own in problem.smaller.items()}, **members})
         try:
             found = self.layout()
         finally:
             problem.look_at(before)
+            problem.set_levels(level)
         return f"a clause that has a layout: {found}" if found else None
 
     def layout(self):

@@ -125,7 +125,7 @@ class Places:
 
     def goes_by(self, feature, other, t):
         at, thing = self.problem.lattice.point(self.problem.anchor(feature)), self.problem.things[other]
-        if thing.holds_place(at):
+        if self.problem.original.get(other, thing).holds_place(at):
             return True
         way = at, (at[0] + t[0], at[1] + t[1])
         return not any(plane.edges_meet(way, e) for e in self.problem.whole(other).edges)

@@ -125,6 +125,24 @@ make_hidden() {
         '"POLYGON((28.5 -1,29 -1,29 11,28.5 11))",1' '"LINESTRING(105 -50,105 50)"',1 | layer walls.gpkg walls GEOMETRY
 }
 
+# A terrace of four houses that a road covers by 1 m in front, with a wall behind; two houses beside a road, one on it,
+# one above a footway; a pair of houses before a wall, of which one has to go even if the road cuts both back.
+make_town() {
+    {
+        echo "WKT,class"
+        printf '%s\n' '"POLYGON((0 0,8 0,8 10,0 10))",1' '"POLYGON((8 0,17 0,17 9,8 9))",2' '"POLYGON((17 0,25 0,25 10,17 10))",1' \
+            '"POLYGON((25 0,32 1,32 11,25 10))",3'
+        echo '"POLYGON((102 0,112 0,112 10,102 10))",1'
+        echo '"POLYGON((88 0,98 0,98 10,88 10))",0'
+        echo '"POLYGON((97 30,104 30,104 40,97 40))",1'
+        echo '"POLYGON((102 60,112 60,112 70,102 70))",1'
+        echo '"POLYGON((202 0,212 0,212 10,202 10))",1'
+        echo '"POLYGON((206 3,216 3,216 13,206 13))",2'
+    } | layer town.gpkg buildings POLYGON
+    printf 'WKT,w\n"LINESTRING(-20 -2,50 -2)",5\n"LINESTRING(100 -50,100 180)",6\n"LINESTRING(200 -50,200 80)",6\n"LINESTRING(95 65,120 65)",1\n"LINESTRING(-20 12.5,50 12.5)",0.5\n"LINESTRING(216.5 -50,216.5 50)",0.5\n' |
+        layer roads.gpkg roads LINESTRING
+}
+
 make_through() {
     printf 'WKT,w\n"LINESTRING(-30 3,40 3)",1\n' | layer through.gpkg through LINESTRING
 }
