@@ -48,18 +48,22 @@ static double next_double(double v, int ulps)
     return v;
 }
 
-/* Replaces xy, a point near the line from a to b, by the nearest point of doubles that is not on its right. Returns
- * false if none is near. */
+/* Replaces xy, a point near the line from a to b, by the nearest point of doubles on the line or, if there is none
+ * near, by the nearest one that is not on its right. So two shapes that share a wall with doubles on it, such as one
+ * along an axis, get the same corner. Returns false if there is neither. */
 static bool round_inward(const double *a, const double *b, double xy[2])
 {
     const sunder_point from = {a[0], a[1]}, to = {b[0], b[1]};
     const double was[2] = {xy[0], xy[1]};
     double best = INFINITY;
+    bool on_line = false;
     for (int i = -FARTHEST; i <= FARTHEST; i++)
         for (int j = -FARTHEST; j <= FARTHEST; j++) {
             const sunder_point at = {next_double(was[0], i), next_double(was[1], j)};
             const double off = hypot(at.x - was[0], at.y - was[1]);
-            if (off >= best || sunder_orient(&from, &to, &at) < 0) continue;
+            const int side = sunder_orient(&from, &to, &at);
+            if (side < 0 || (on_line && side > 0) || (off >= best && on_line == (side == 0))) continue;
+            on_line = side == 0;
             best = off;
             xy[0] = at.x;
             xy[1] = at.y;
