@@ -72,6 +72,55 @@ SUNDER_EXPERIMENTAL sunder_status sunder_layer_trim(const sunder_layer *layer, c
                                                     const sunder_trimming *trimming, sunder_shape **shape,
                                                     sunder_error *err);
 
+/* How far the outlines of blocks are moved in. */
+typedef struct sunder_inset {
+    const double *length; /* [lengths] above 0, ascending: the distances from the outline */
+    size_t lengths;
+    double width; /* >= 0; a disc of this diameter lies in what remains */
+} sunder_inset;
+
+/* Moves the outlines of blocks in, one rung for each length. The walls between members of a block stay where they are,
+ * so that members share them as before. A member keeps the largest polygon of what is left of it.
+ *
+ * options  decide which features are blocks, and what is an inner wall: where the members are no farther apart than
+ *          the touch tolerance
+ * from     NULL, or [n] the shapes whose outlines are moved in, such as those of sunder_layer_trim(); NULL for a
+ *          feature: its shape as given
+ * shape    [n * lengths] feature by feature: new shapes that the caller frees, each in the one before it; NULL where
+ *          there is none that meets the conditions
+ *
+ * Ignored features, those that are not one polygon, and those with corners that are not doubles have none. Fails with
+ * SUNDER_ENOMEM or SUNDER_ECANCEL, and with SUNDER_EARG for lengths out of their range; all shapes are then NULL. */
+SUNDER_EXPERIMENTAL sunder_status sunder_layer_inset(const sunder_layer *layer, const sunder_layer_options *options,
+                                                     const sunder_inset *inset, sunder_shape *const *from,
+                                                     sunder_shape **shape, sunder_error *err);
+
+/* How features are made smaller as a whole. */
+typedef struct sunder_scaling {
+    const double *factor; /* [factors] below 1, descending, above 0 */
+    size_t factors;
+    double square; /* the side of a square that comes last; 0: none does */
+    double width;  /* >= 0; a disc of this diameter lies in what is scaled */
+} sunder_scaling;
+
+/* Scales features about the centre of their largest disc, and at last replaces them by a square about the centre of the
+ * largest disc of the shape before, along their longest edge.
+ *
+ * options  decide which features are in blocks; these are not scaled
+ * from     NULL, or [n] the smallest shapes so far; NULL for a feature: its shape as given
+ * shape    [n * (factors + 1)] feature by feature, the square last: new shapes that the caller frees, each in the one
+ *          before it; NULL where there is none that meets the conditions
+ *
+ * Ignored features and those with corners that are not doubles have none. Fails as sunder_layer_inset() does. */
+SUNDER_EXPERIMENTAL sunder_status sunder_layer_scale(const sunder_layer *layer, const sunder_layer_options *options,
+                                                     const sunder_scaling *scaling, sunder_shape *const *from,
+                                                     sunder_shape **shape, sunder_error *err);
+
+/* Finds a largest disc that lies in the shape, up to a thousandth of the shape's width: its centre, and a radius that
+ * is not too great but for rounding. 0 for an empty shape. Fails with SUNDER_ENOMEM. */
+SUNDER_EXPERIMENTAL sunder_status sunder_shape_largest_disc(const sunder_shape *shape, double centre[2], double *radius,
+                                                            sunder_error *err);
+
 /* What was hidden or became smaller, and what is proved of it. */
 typedef struct sunder_hiding_summary {
     size_t hidden;          /* the number of hidden features */

@@ -1,13 +1,10 @@
 /* Features cut back at barriers. */
-#include "displacement/layer/barrier_parts.h"
-#include "displacement/layer/model.h"
+#include "displacement/levels/levels.h"
 
 #include "base/extremes.h"
 #include "base/parallel.h"
 #include "base/watch.h"
-#include "morphology/morphology.h"
 #include "separation/separation.h"
-#include "shape/difference.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -16,9 +13,8 @@
  * place, so that rounding does not bring corners too near. */
 #define MARGIN 0x1p-45
 
-/* The disc of the required distance is replaced by a regular polygon around it. The excess at a corner is
- * 1 / cos(pi / ROUND_CORNERS) - 1 of the distance: half a per cent. */
-enum { ROUND_CORNERS = 32 };
+/* The disc of the required distance is replaced by a regular polygon around it. */
+enum { ROUND_CORNERS = SUNDER_I_ROUND_CORNERS };
 
 typedef struct trimmer {
     const sunder_layer *layer;
@@ -28,6 +24,7 @@ typedef struct trimmer {
     sunder_i_rtree tree;             /* over the pieces' boxes */
     sunder_shape *disc;              /* around the disc of the least width; NULL: there is none */
     double round[2 * ROUND_CORNERS]; /* the corners of a regular polygon around the unit disc */
+    sunder_i_blocks blocks;
     sunder_shape **out;
 } trimmer;
 
@@ -141,12 +138,15 @@ static bool add_zones(const trimmer *t, zones *z, const double box[4], double ma
 static sunder_status may_stay(const trimmer *t, const sunder_shape *shape, const sunder_shape *trimmed, bool *may,
                               sunder_error *err)
 {
-    const double area = sunder_shape_area(trimmed), whole = sunder_shape_area(shape);
-    *may = area < whole && area >= t->how.keep * whole;
-    sunder_status status = SUNDER_OK;
-    if (*may) status = sunder_i_contained(trimmed, NULL, shape, NULL, may, err);
-    if (!status && *may && t->disc) status = sunder_i_fits_in_both(trimmed, NULL, trimmed, NULL, t->disc, may, err);
-    return status;
+    *may = sunder_shape_area(trimmed) >= t->how.keep * sunder_shape_area(shape);
+    return *may ? sunder_i_level_may_follow(shape, trimmed, t->disc, may, err) : SUNDER_OK;
+}
+
+/* Is the feature the only one of its block? */
+static bool stands_alone(const trimmer *t, size_t f)
+{
+    const sunder_i_model *model = &t->blocks.model;
+    return model->body[model->body_of[f]].members == 1;
 }
 
 static sunder_status trim_feature(const trimmer *t, zones *z, size_t f, sunder_error *err)
@@ -155,8 +155,7 @@ static sunder_status trim_feature(const trimmer *t, zones *z, size_t f, sunder_e
     sunder_shape *trimmed = NULL;
     double box[4];
     bool may = false;
-    if (!shape || sunder_shape_is_empty(shape) || shape->rational || sunder_i_demands(t->layer, f)->ignored)
-        return SUNDER_OK;
+    if (!sunder_i_level_has_shape(t->layer, f)) return SUNDER_OK;
     sunder_shape_box(shape, box);
     const double margin = margin_of(box);
     if (!list_pieces(t, z, box, margin)) return sunder_i_failure_cause(err);
@@ -168,8 +167,12 @@ static sunder_status trim_feature(const trimmer *t, zones *z, size_t f, sunder_e
     if (z->cuts.n == 0) return SUNDER_OK;
     status = sunder_i_shape_subtract(shape, &z->cuts, &trimmed, err);
     if (!status && trimmed) status = may_stay(t, shape, trimmed, &may, err);
-    if (may) t->out[f] = trimmed;
-    if (!may) sunder_shape_free(trimmed);
+    if (!status && may && stands_alone(t, f))
+        status = sunder_i_trim_along(shape, t->how.keep, margin, t->disc, &trimmed, err);
+    if (may && !status)
+        t->out[f] = trimmed;
+    else
+        sunder_shape_free(trimmed);
     return status;
 }
 
@@ -234,11 +237,10 @@ sunder_status sunder_layer_trim(const sunder_layer *layer, const sunder_layer_op
     for (size_t f = 0; f < layer->n; f++) shape[f] = NULL;
     sunder_status status = sunder_i_rules_of(options, &rules, err);
     if (!status) status = prepare_trimmer(&t, &rules, err);
+    if (!status) status = sunder_i_blocks_find(layer, options, &t.blocks, err);
     if (!status) status = sunder_i_parallel(rules.threads, layer->n, SUNDER_I_GRAIN_SHAPES, trim_some, &t, err);
-    for (size_t f = 0; f < layer->n && status; f++) {
-        sunder_shape_free(shape[f]);
-        shape[f] = NULL;
-    }
+    if (status) sunder_i_levels_drop(shape, layer->n);
+    sunder_i_blocks_free(&t.blocks);
     sunder_i_barriers_free(&t.barriers);
     sunder_i_rtree_free(&t.tree);
     sunder_shape_free(t.disc);
