@@ -13,6 +13,7 @@ typedef enum gis_style {
     GIS_STYLE_NONE,
     GIS_STYLE_STATUS,       /* by the values of sunder_st; for polygons or points, by the layer's type */
     GIS_STYLE_WITH_HIDDEN,  /* the same, with the value hidden */
+    GIS_STYLE_WITH_RUNGS,   /* the same, and hatching for features with a smaller shape */
     GIS_STYLE_DISPLACEMENT, /* arrows */
     GIS_STYLE_CONFLICTS,    /* thick lines */
     GIS_STYLE_WITH_TIGHT,   /* the same, and thin lines for tight pairs */

@@ -29,12 +29,13 @@ static void begin_layer(gis_text *to, const char *class)
     gis_text_print(to, "<layer class=\"%s\" enabled=\"1\" pass=\"0\" locked=\"0\">", class);
 }
 
-static void add_fill(gis_text *to, const char *colour, const char *outline)
+/* line: the style of the outline, such as solid or dot. */
+static void add_fill(gis_text *to, const char *colour, const char *outline, const char *line)
 {
     begin_layer(to, "SimpleFill");
     add_property(to, "color", colour);
     add_property(to, "style", "solid");
-    add_property(to, "outline_style", "solid");
+    add_property(to, "outline_style", line);
     add_property(to, "outline_color", outline);
     add_property(to, "outline_width", "0.1");
     add_property(to, "outline_width_unit", "MM");
@@ -127,7 +128,28 @@ static void add_symbol(gis_text *to, kind of, const char *name, const char *colo
     else if (of == OF_LINES)
         add_line(to, colour, "0.6");
     else
-        add_fill(to, colour, outline);
+        add_fill(to, colour, outline, "solid");
+    gis_text_print(to, "</symbol>\n");
+}
+
+/* Adds hatching to the features that have a smaller shape. */
+static void add_hatching(gis_text *to, const char *colour)
+{
+    begin_layer(to, "SimpleFill");
+    add_property(to, "color", colour);
+    add_property(to, "style", "b_diagonal");
+    add_property(to, "outline_style", "no");
+    add_expression(to, "enabled", "coalesce(&quot;sunder_lvl&quot;, 0) &gt; 0");
+    gis_text_print(to, "</layer>");
+}
+
+/* Adds the fill of a status; hidden features have a dotted outline. rungs: features may have smaller shapes. */
+static void add_status_fill(gis_text *to, const char *name, int status, const char *colour, const char *outline,
+                            bool rungs)
+{
+    begin_symbol(to, "fill", name);
+    add_fill(to, colour, outline, status == SUNDER_FEATURE_HIDDEN ? "dot" : "solid");
+    if (rungs) add_hatching(to, outline);
     gis_text_print(to, "</symbol>\n");
 }
 
@@ -146,7 +168,7 @@ static const struct {
 };
 enum { STATUSES = SUNDER_FEATURE_HIDDEN }; /* without hiding */
 
-static void add_by_status(gis_text *to, kind of, int n)
+static void add_by_status(gis_text *to, kind of, int n, bool rungs)
 {
     gis_text_print(to,
                    "<renderer-v2 type=\"categorizedSymbol\" attr=\"sunder_st\" forceraster=\"0\" symbollevels=\"0\" "
@@ -159,7 +181,10 @@ static void add_by_status(gis_text *to, kind of, int n)
     for (int i = 0; i < n; i++) {
         char name[12];
         snprintf(name, sizeof name, "%d", i);
-        add_symbol(to, of, name, statuses[i].colour, statuses[i].outline);
+        if (of == OF_POINTS)
+            add_symbol(to, of, name, statuses[i].colour, statuses[i].outline);
+        else
+            add_status_fill(to, name, i, statuses[i].colour, statuses[i].outline, rungs);
     }
     gis_text_print(to, "</symbols>\n</renderer-v2>\n");
 }
@@ -289,8 +314,9 @@ void gis_style_qml(gis_text *to, gis_style style, OGRwkbGeometryType type)
                        "<qgis version=\"3.22.0\" styleCategories=\"Symbology\">\n");
     switch (style) {
     case GIS_STYLE_NONE: break;
-    case GIS_STYLE_STATUS: add_by_status(to, of, STATUSES); break;
-    case GIS_STYLE_WITH_HIDDEN: add_by_status(to, of, STATUSES + 1); break;
+    case GIS_STYLE_STATUS: add_by_status(to, of, STATUSES, false); break;
+    case GIS_STYLE_WITH_HIDDEN: add_by_status(to, of, STATUSES + 1, false); break;
+    case GIS_STYLE_WITH_RUNGS: add_by_status(to, of, STATUSES + 1, true); break;
     case GIS_STYLE_DISPLACEMENT: add_arrows(to); break;
     case GIS_STYLE_CONFLICTS: add_conflicts(to, false); break;
     case GIS_STYLE_WITH_TIGHT: add_conflicts(to, true); break;
