@@ -134,7 +134,7 @@ static bool print_lines(const check_run *run, gis_error *error)
 static bool is_asked_about(const gis_moves *moves, sunder_conflict_kind kind)
 {
     if (kind == SUNDER_CONFLICT_NEEDLESS) return moves->hidden;
-    if (kind == SUNDER_CONFLICT_ALTERED) return moves->original.smaller != NULL;
+    if (kind == SUNDER_CONFLICT_ALTERED) return moves->levels.rungs > 0;
     return kind != SUNDER_CONFLICT_ROW || moves->original.request->rules.core.rows;
 }
 

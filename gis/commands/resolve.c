@@ -169,7 +169,9 @@ static const double usual_share_kept = 0.5;
 static bool resolve_crossed(const gis_options *options, gis_layer_rules *out, gis_error *error)
 {
     unsigned crossed = SUNDER_CROSSED_HIDE;
-    if (!out->hide && !options->given[OPT_TRIM] && !out->hidden_field) return true;
+    if (!out->hide && !options->given[OPT_TRIM] && !options->given[OPT_INSET] && !options->given[OPT_SYMBOL_SIZE] &&
+        !out->hidden_field)
+        return true;
     if (!resolve_choice(options, OPT_CROSSED, crossed_word, &crossed, error)) return false;
     out->crossed = (sunder_crossed)crossed;
     return true;
@@ -186,12 +188,21 @@ static bool resolve_room(const gis_options *options, gis_layer_rules *out, gis_e
     out->hidden_field = options->text[OPT_HIDDEN_FIELD];
     out->trim = options->given[OPT_TRIM] && options->command->bit != GIS_CHECK; /* see gis_resolve_original() */
     out->trim_keep = options->given[OPT_TRIM_KEEP] ? options->number[OPT_TRIM_KEEP] : usual_share_kept;
+    out->inset = options->command->bit != GIS_CHECK ? options->text[OPT_INSET] : NULL;
     out->min_size = gis_resolve_length(options, OPT_MIN_SIZE);
+    if (options->command->bit != GIS_CHECK) out->symbol_size = gis_resolve_length(options, OPT_SYMBOL_SIZE);
     out->rigid_where = options->text[OPT_RIGID_WHERE];
-    for (size_t i = 0; (out->hide || out->trim) && i < sizeof not_with / sizeof *not_with; i++)
+    const char *asked = out->hide               ? "--hide"
+                        : out->trim             ? "--trim"
+                        : out->inset            ? "--inset"
+                        : out->symbol_size.text ? "--symbol-size"
+                                                : NULL;
+    for (size_t i = 0; asked && i < sizeof not_with / sizeof *not_with; i++)
         if (options->given[not_with[i]])
-            return gis_fail_usage(error, "%s: not with %s", out->hide ? "--hide" : "--trim",
-                                  gis_option_table[not_with[i]].names);
+            return gis_fail_usage(error, "%s: not with %s", asked, gis_option_table[not_with[i]].names);
+    if ((out->inset || out->symbol_size.text) && options->given[OPT_PROOF]) /* the checker knows one rung */
+        return gis_fail_usage(error, "%s: not with %s", out->inset ? "--inset" : "--symbol-size",
+                              gis_option_table[OPT_PROOF].names);
     if (options->given[OPT_TRIM] && !options->given[OPT_BARRIER])
         return gis_fail_usage(error, "--trim: features are cut back at barriers; give --barrier");
     if (out->trim_keep > 1) return gis_fail_usage(error, "--trim-keep %g: a share is at most 1", out->trim_keep);
@@ -294,6 +305,8 @@ void gis_resolve_original(const gis_options *options, const gis_layer_input_requ
     out->rules.rows_field = rows_field_of(options);
     out->rules.hidden_field = out->rules.hierarchy_field = NULL;
     out->rules.trim = options->given[OPT_TRIM];
+    out->rules.inset = options->text[OPT_INSET];
+    out->rules.symbol_size = gis_resolve_length(options, OPT_SYMBOL_SIZE);
 }
 
 /* Checks the options of the command check that depend on --before: some apply to moves only, and some select features
@@ -302,7 +315,8 @@ static bool check_before(const gis_options *options, gis_error *error)
 {
     static const gis_option_id of_moves[] = {OPT_MAX_SHIFT,   OPT_MAX_SHIFT_FIELD,
                                              OPT_FIXED_WHERE, OPT_ALLOW_JUMPS,
-                                             OPT_ROWS,        OPT_TRIM},
+                                             OPT_ROWS,        OPT_TRIM,
+                                             OPT_INSET,       OPT_SYMBOL_SIZE},
                                of_results[] = {OPT_SQL, OPT_BBOX};
     bool before = options->given[OPT_BEFORE];
     if (options->command->bit != GIS_CHECK) return true;

@@ -1,7 +1,7 @@
 /* layer_input.c: reads a layer: opens its source, makes shapes of its features, applies the rules to each, and passes
  * everything to the core. Hints about a misunderstood command line are added here, where it is known that opening
  * failed. */
-#include "layer/layer_input.h"
+#include "layer/levels.h"
 
 #include "base/core_error.h"
 #include "base/message.h"
@@ -109,6 +109,12 @@ static bool set_sides(gis_layer_input *input, gis_error *error)
     return ok;
 }
 
+/* Makes the smaller shapes. The command check makes them for the layers that it compares (moves.c). */
+static bool make_levels(gis_layer_input *input, gis_error *error)
+{
+    return !input->request->moves || gis_levels_make(input, NULL, input->n, input->layer, &input->levels, error);
+}
+
 static bool make_layer(gis_layer_input *input, gis_error *error)
 {
     sunder_error why;
@@ -120,7 +126,7 @@ static bool make_layer(gis_layer_input *input, gis_error *error)
     if (sunder_layer_set_rows(input->layer, input->row, &why) != SUNDER_OK)
         return gis_core_failed(error, "--rows", &why);
     sunder_layer_set_crossed(input->layer, input->request->rules.crossed);
-    return gis_layer_set_hiding(input, error) && gis_layer_set_smaller(input, error) && set_sides(input, error);
+    return gis_layer_set_hiding(input, error) && make_levels(input, error) && set_sides(input, error);
 }
 
 /* Barriers are read within this multiple of the longest limit, since the report also says which longer limit would
@@ -243,10 +249,8 @@ bool gis_layer_make_room(gis_layer_input *input, bool demands, gis_error *error)
 void gis_layer_drop_features(gis_layer_input *input)
 {
     for (size_t i = 0; input->shape && i < input->n; i++) sunder_shape_free(input->shape[i]);
-    for (size_t i = 0; input->smaller && i < input->n; i++) sunder_shape_free(input->smaller[i]);
     free(input->shape);
-    free(input->smaller);
-    input->smaller = NULL;
+    gis_levels_clear(&input->levels);
     free(input->feature);
     free(input->row);
     input->row = NULL;
@@ -304,6 +308,7 @@ void gis_layer_input_clear(gis_layer_input *input)
 {
     sunder_layer_free(input->layer);
     gis_layer_drop_features(input);
+    free(input->inset);
     gis_layer_shaping_free(input->shaping);
     gis_barriers_clear(&input->barriers);
     gis_source_close(input->source);

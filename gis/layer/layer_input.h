@@ -36,6 +36,14 @@ void gis_layer_input_request_clear(gis_layer_input_request *request);
 
 typedef struct gis_layer_shaping gis_layer_shaping; /* in shapes.c */
 
+/* The smaller shapes that features may have (levels.h). */
+typedef enum gis_rung { GIS_RUNG_TRIMMED, GIS_RUNG_INSET, GIS_RUNG_SCALED, GIS_RUNG_SYMBOL, GIS_RUNGS } gis_rung;
+typedef struct gis_levels {
+    sunder_shape **shape; /* [features * rungs] feature by feature, from the largest on; NULL: it does not have it */
+    size_t features, rungs;
+    gis_rung *kind; /* [rungs] */
+} gis_levels;
+
 typedef struct gis_layer_input {
     const gis_layer_input_request *request;
     gis_source *source;
@@ -48,7 +56,10 @@ typedef struct gis_layer_input {
     double min_size;         /* likewise; 0 if they have none */
     double tolerance;        /* in units of the layer; negative: the default */
     sunder_shape **shape;    /* [n] NULL: the feature cannot conflict */
-    sunder_shape **smaller;  /* [n] the shape that a feature may have instead, NULL for none; NULL without --trim */
+    double *inset;           /* [insets] the lengths of --inset, in units of the layer */
+    size_t insets;
+    double symbol_size;      /* in units of the layer; 0 if it is not given */
+    gis_levels levels;       /* the smaller shapes that features may have, if they are to be moved */
     sunder_feature *feature; /* [n] */
     gis_barriers barriers;
     double barrier_reach; /* barriers are known within this distance of each feature */
@@ -110,12 +121,6 @@ sunder_hiding_cost gis_layer_hiding_cost(const gis_layer_input *input, size_t i)
 /* Has what is hidden in a result ignored, except for features of class 0. */
 bool gis_layer_mark_hidden(gis_layer_input *input, gis_error *error);
 bool gis_layer_set_hiding(gis_layer_input *input, gis_error *error); /* hiding_costs.c: once there is a layer */
-bool gis_layer_set_smaller(gis_layer_input *input, gis_error *error); /* smaller_shapes.c: likewise, with barriers */
-/* Gives the features matched[n] of `input` their smaller shapes in `layer`, in this order; NULL: all n features. */
-bool gis_layer_set_levels(const gis_layer_input *input, const size_t *matched, size_t n, sunder_layer *layer,
-                          gis_error *error);
-/* The share of its area that feature i loses with its smaller shape. */
-double gis_layer_share_lost(const gis_layer_input *input, size_t i);
 
 /* Numbers blocks in the order of first appearance; they are ranked when all keys are known. */
 bool gis_layer_number_blocks(gis_layer_input *input, gis_block_keys *keys, gis_error *error);

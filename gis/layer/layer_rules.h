@@ -28,8 +28,9 @@ typedef struct gis_layer_rules {
     bool trim; /* features may be cut back at barriers, but keep this share of their area, and a disc of this size */
     double trim_keep;
     sunder_crossed crossed; /* what becomes of features that a line of a barrier crosses */
-    gis_optional_length min_size;
-    const char *rigid_where; /* SQL: features that are not cut back */
+    const char *inset; /* the lengths of --inset, separated by commas */
+    gis_optional_length min_size, symbol_size;
+    const char *rigid_where; /* SQL: features whose shapes do not change */
     const char *hierarchy_field;
     const char *hidden_field; /* of a result: which features are hidden */
     gis_weighting hide_weighting;

@@ -2,6 +2,8 @@
  * and everything else are those of the original. */
 #include "layer/moves.h"
 
+#include "layer/levels.h"
+
 #include "base/core_error.h"
 #include "base/message.h"
 #include "read/fields.h"
@@ -212,8 +214,8 @@ static bool make_layers(pairing *p, gis_error *error)
         sunder_layer_set_barriers(m->after, barriers->barrier, barriers->n, &why) != SUNDER_OK)
         return gis_core_failed(error, "--before", &why);
     sunder_layer_set_crossed(m->before, m->original.request->rules.crossed);
-    return set_rows(m, error) && gis_layer_set_levels(&m->original, m->matched, m->n, m->before, error) &&
-           set_sides(m, error);
+    return set_rows(m, error) && set_sides(m, error) &&
+           gis_levels_make(&m->original, m->matched, m->n, m->before, &m->levels, error);
 }
 
 /* ---- All of it --------------------------------------------------------------------------------------------------- */
@@ -243,6 +245,7 @@ void gis_moves_clear(gis_moves *moves)
     sunder_report_free(moves->report);
     sunder_layer_free(moves->before);
     sunder_layer_free(moves->after);
+    gis_levels_clear(&moves->levels);
     for (size_t k = 0; k < moves->n_with_arcs; k++) sunder_shape_free(moves->with_arcs[k]);
     free(moves->with_arcs);
     free(moves->matched);

@@ -1,5 +1,6 @@
 /* proof.c: see proof.h. */
 #include "layer/proof.h"
+#include "layer/levels.h"
 
 #include "layer/output.h"
 
@@ -38,7 +39,8 @@ static void count_hiding(const gis_proof_lines *lines, const gis_layer_input *in
     sunder_report_hiding(lines->report, &hiding);
     head->hide = true;
     head->hidden = hiding.hidden;
-    for (size_t i = 0; i < input->n && input->smaller; i++) head->shapes += input->smaller[i] != NULL;
+    const gis_levels *levels = &input->levels;
+    for (size_t k = 0; k < levels->features * levels->rungs; k++) head->shapes += levels->shape[k] != NULL;
     head->clauses = hiding.proved;
     head->choices = sunder_report_hiding_trees(lines->report)->trees;
     head->class = sunder_report_hiding_classes(lines->report, &head->classes);
@@ -51,7 +53,7 @@ static bool put_head(gis_proof_lines *lines, const gis_layer_input *input, FILE 
     gis_proof_head head = gis_proof_head_of(input, &summary);
     sunder_report_conflicts(lines->report, &head.conflicts);
     sunder_report_bound_trees(lines->report, &head.trees);
-    if (input->request->rules.hide || input->request->rules.trim) count_hiding(lines, input, &head);
+    if (input->request->rules.hide || gis_levels_asked(&input->request->rules)) count_hiding(lines, input, &head);
     gis_proof_head_line(&lines->json, &head);
     return gis_proof_print(&lines->json, to, error);
 }
@@ -105,10 +107,15 @@ static bool put_shapes(gis_proof_lines *lines, const gis_layer_input *input, gis
 {
     bool done = true;
     size_t k = 0;
-    for (size_t i = 0; i < input->n && input->smaller && done; i++) {
-        if (!input->smaller[i]) continue;
-        gis_proof_shape(lines, i, 1, input->smaller[i]);
-        done = put_line(lines, "shape", k++, line, to, error);
+    const gis_levels *levels = &input->levels;
+    for (size_t i = 0; i < levels->features; i++) {
+        size_t level = 0;
+        for (size_t rung = 0; rung < levels->rungs && done; rung++) {
+            const sunder_shape *shape = gis_levels_shape(levels, i, rung);
+            if (!shape) continue;
+            gis_proof_shape(lines, i, ++level, shape);
+            done = put_line(lines, "shape", k++, line, to, error);
+        }
     }
     return done;
 }

@@ -1,6 +1,8 @@
 /* result_held.c: see result.h. The result of a layer in memory, taken from the core's report. */
 #include "layer/result_held.h"
 
+#include "base/core_error.h"
+#include "layer/levels.h"
 #include "layer/output.h"
 #include "layer/proof.h"
 
@@ -15,16 +17,35 @@ static gis_value block_value(const gis_result *r, bool has_null, size_t feature)
                               first < 0 ? OGRNullFID : gis_source_fid(source, (size_t)first));
 }
 
+/* Fills in the shape that the feature has instead of its own, if it does. */
+static void fill_level(const gis_result *r, size_t i, gis_feature_row *row)
+{
+    const size_t level = sunder_report_level(r->of, i);
+    if (!level || row->status == SUNDER_FEATURE_HIDDEN) return;
+    const size_t rung = gis_levels_rung(&r->input->levels, i, level);
+    row->rung = rung + 1;
+    row->smaller = gis_levels_shape(&r->input->levels, i, rung);
+    row->multi = wkbFlatten(OGR_G_GetGeometryType(gis_source_geometry(r->input->source, i))) == wkbMultiPolygon;
+    row->lost = 1 - sunder_shape_area(row->smaller) / sunder_shape_area(r->input->shape[i]);
+}
+
+static bool fill_size(const gis_result *r, size_t i, gis_feature_row *row, gis_error *error)
+{
+    double centre[2], radius;
+    sunder_error why;
+    if (sunder_shape_largest_disc(row->smaller ? row->smaller : r->input->shape[i], centre, &radius, &why) != SUNDER_OK)
+        return gis_core_failed(error, "sunder_siz", &why);
+    row->size = 2 * radius;
+    return true;
+}
+
 static bool visit_features(const gis_result *r, bool has_null, gis_feature_visit *visit, void *user, gis_error *error)
 {
     for (size_t i = 0; visit && i < r->input->n; i++) {
         gis_feature_row row = {.status = sunder_report_status(r->of, i), .block = block_value(r, has_null, i)};
         sunder_report_move(r->of, i, &row.dx, &row.dy);
-        if (sunder_report_level(r->of, i) && row.status != SUNDER_FEATURE_HIDDEN) {
-            row.smaller = r->input->smaller[i];
-            row.multi = wkbFlatten(OGR_G_GetGeometryType(gis_source_geometry(r->input->source, i))) == wkbMultiPolygon;
-            row.lost = gis_layer_share_lost(r->input, i);
-        }
+        fill_level(r, i, &row);
+        if (r->input->levels.rungs && !fill_size(r, i, &row, error)) return false;
         if (!visit(user, i, &row, error)) return false;
     }
     return true;
@@ -135,8 +156,8 @@ static OGRFieldType id_type(const gis_result *r) { return gis_id_type(r->input);
 
 gis_result gis_result_held(const gis_layer_input *input, sunder_report *report)
 {
-    static const gis_result_kind kind = {visit_features, visit_arrows,         visit_conflicts, visit_pushes,
-                                         visit_rows,     write_symbols,        write_hidden,    write_proof,
-                                         gis_result_held_view, longest_fid,    id_type};
+    static const gis_result_kind kind = {visit_features,       visit_arrows,  visit_conflicts, visit_pushes,
+                                         visit_rows,           write_symbols, write_hidden,    write_proof,
+                                         gis_result_held_view, longest_fid,   id_type};
     return (gis_result){&kind, input, report};
 }

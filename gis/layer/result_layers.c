@@ -1,6 +1,8 @@
 /* result_layers.c: see result.h. */
 #include "layer/result.h"
 
+#include "layer/levels.h"
+
 #include "base/interrupt.h"
 
 typedef struct feature_writer {
@@ -45,7 +47,7 @@ static bool write_main(const gis_result *r, bool wanted, gis_sink *sink, gis_err
     const gis_layer_rules *rules = &r->input->request->rules;
     feature_writer w = {NULL, rules->drop_hidden};
     if (!wanted) return r->kind->features(r, true, NULL, NULL, error);
-    return gis_main_begin(sink, rules->hide, rules->trim, &w.layer, error) &&
+    return gis_main_begin(sink, rules->hide, gis_levels_asked(rules), &w.layer, error) &&
            r->kind->features(r, gis_sink_has_null(w.layer), write_feature, &w, error);
 }
 

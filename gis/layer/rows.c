@@ -19,17 +19,19 @@ gis_value gis_block_as_value(bool fids_unique, int64_t first, GIntBig fid)
 
 bool gis_main_begin(gis_sink *sink, bool hide, bool smaller, gis_sink_layer **layer, gis_error *error)
 {
-    static const gis_field fields[] = {{"sunder_dx", OFTReal, 0},       {"sunder_dy", OFTReal, 0},
-                                       {"sunder_len", OFTReal, 0},      {"sunder_st", OFTString, 7},
-                                       {"sunder_blk", OFTInteger64, 0}, {"sunder_inv", OFTInteger, 0},
-                                       {"sunder_lvl", OFTInteger, 0},   {"sunder_cut", OFTReal, 0}};
+    static const gis_field fields[] = {
+        {"sunder_dx", OFTReal, 0},     {"sunder_dy", OFTReal, 0},       {"sunder_len", OFTReal, 0},
+        {"sunder_st", OFTString, 7},   {"sunder_blk", OFTInteger64, 0}, {"sunder_inv", OFTInteger, 0},
+        {"sunder_lvl", OFTInteger, 0}, {"sunder_cut", OFTReal, 0},      {"sunder_siz", OFTReal, 0}};
     const size_t columns = sizeof fields / sizeof *fields;
     const gis_sink_layer_request request = {.suffix = "",
                                             .like_source = true,
                                             .as_source = true,
                                             .fields = fields,
-                                            .n_fields = smaller ? columns : columns - (hide ? 2 : 3),
-                                            .style = hide ? GIS_STYLE_WITH_HIDDEN : GIS_STYLE_STATUS};
+                                            .n_fields = smaller ? columns : columns - (hide ? 3 : 4),
+                                            .style = smaller ? GIS_STYLE_WITH_RUNGS
+                                                     : hide  ? GIS_STYLE_WITH_HIDDEN
+                                                             : GIS_STYLE_STATUS};
     if (!gis_sink_add(sink, &request, layer, error)) return false;
     if (!gis_sink_has_null(*layer))
         gis_sink_tell_loss(*layer,
@@ -56,8 +58,9 @@ bool gis_main_row(gis_sink_layer *layer, size_t i, const gis_feature_row *row, g
         {GIS_TEXT, {.text = sunder_feature_status_string(row->status)}},
         row->block,
         {GIS_INTEGER, {.integer = row->status == SUNDER_FEATURE_HIDDEN}},
-        {GIS_INTEGER, {.integer = row->smaller != NULL}},
+        {GIS_INTEGER, {.integer = (GIntBig)row->rung}},
         {GIS_REAL, {.real = row->lost}},
+        {row->size > 0 ? GIS_REAL : GIS_NULL, {.real = row->size}},
     };
     if (!gis_go_on(error)) return false;
     if (!row->smaller) return gis_sink_write_source(layer, i, row->dx, row->dy, values, error);

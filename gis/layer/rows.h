@@ -21,10 +21,12 @@ typedef struct gis_feature_row {
     gis_value block;
     const sunder_shape *smaller; /* the shape that the feature has instead of its own; NULL: it has its own */
     bool multi;                  /* ... which is written as a multipolygon */
+    size_t rung;                 /* ... and is this one of the run's smaller shapes, from 1 on; 0: its own */
     double lost;                 /* the share of its area that the feature lost */
+    double size;                 /* the diameter of the largest disc in the shape that is written; 0: unknown */
 } gis_feature_row;
 
-/* hide: the layer has the column sunder_inv; smaller: it has sunder_lvl and sunder_cut. */
+/* hide: the layer has the column sunder_inv; smaller: it has sunder_lvl, sunder_cut and sunder_siz. */
 bool gis_main_begin(gis_sink *sink, bool hide, bool smaller, gis_sink_layer **layer, gis_error *error);
 /* Writes the row of feature i of the sink's source, or of its current batch. */
 bool gis_main_row(gis_sink_layer *layer, size_t i, const gis_feature_row *row, gis_error *error);

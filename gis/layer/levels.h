@@ -1,0 +1,27 @@
+/* levels.h: the smaller shapes that features may have, made by the rules: the rungs of a run, from the largest on.
+ *
+ * A feature has a rung only if its shape meets the conditions and lies in that of the rung before. The core numbers the
+ * levels of a feature without the rungs that it does not have. */
+#ifndef GIS_LEVELS_H
+#define GIS_LEVELS_H
+
+#include "layer/layer_input.h"
+
+/* Do the rules allow smaller shapes? */
+bool gis_levels_asked(const gis_layer_rules *rules);
+
+/* Makes the smaller shapes of the features of `layer`, which are the features matched[n] of `input` in this order
+ * (NULL: all n features), and sets them as its levels. Clear *out also after a failure; it must outlive the layer. */
+bool gis_levels_make(const gis_layer_input *input, const size_t *matched, size_t n, sunder_layer *layer,
+                     gis_levels *out, gis_error *error);
+void gis_levels_clear(gis_levels *levels);
+
+/* Returns the rung of level k >= 1 of feature i, counted from 0. */
+size_t gis_levels_rung(const gis_levels *levels, size_t i, size_t k);
+/* Returns the shape of feature i on a rung that it has. */
+static inline const sunder_shape *gis_levels_shape(const gis_levels *levels, size_t i, size_t rung)
+{
+    return levels->shape[i * levels->rungs + rung];
+}
+
+#endif

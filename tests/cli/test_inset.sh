@@ -1,0 +1,67 @@
+# shellcheck shell=bash disable=SC1091
+# --inset: blocks whose outlines are moved in, what is written about it, which calls are refused, and the check.
+. "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
+command -v jq >/dev/null || { echo "skipped: no jq"; exit 77; }
+
+# Two houses with a common wall, and one opposite, 2 m apart where the gap is 3 m; none can move.
+{
+    echo "WKT,name"
+    echo '"POLYGON((0 0,10 0,10 10,0 10,0 0))",left'
+    echo '"POLYGON((10 0,20 0,20 10,10 10,10 0))",right'
+    echo '"POLYGON((0 -12,20 -12,20 -2,0 -2,0 -12))",opposite'
+} | layer h.gpkg houses POLYGON
+words=(--gap 3 --max-shift 0 --rows no)
+
+# value FILE NAME FIELD: the value of a feature
+value() { ogr2ogr -f CSV /vsistdout/ "$1" houses -where "name = '$2'" -select "$3" -lco STRING_QUOTING=IF_NEEDED | tail -n 1; }
+wkt() { ogr2ogr -f CSV /vsistdout/ "$1" houses -where "name = '$2'" -select name -lco GEOMETRY=AS_WKT | tail -n 1; }
+
+# The opposite house moves in by 1 m: its own outline loses less than the two together.
+expect 0 separate h.gpkg o.gpkg "${words[@]}" --inset 1,2 --stats o.json
+same "$(jq -c '[.shrunk.trimmed, .shrunk.inset, .shrunk.lower_bound == .shrunk.area_lost]' o.json)" '[0,1,true]' "inset:"
+same "$(value o.gpkg opposite sunder_lvl),$(value o.gpkg left sunder_lvl)" "1,0" "the rungs:"
+case $(wkt o.gpkg opposite) in *"19 -3"*) ;; *) fail "the shape: $(wkt o.gpkg opposite)" ;; esac
+grep -q '^inset 1, weight times' out || fail "the summary: $(cat out)"
+
+# If that one may not change, the two do, and their wall stays.
+expect 0 separate h.gpkg r.gpkg "${words[@]}" --inset 1,2 --rigid-where "name = 'opposite'" --stats r.json
+same "$(value r.gpkg left sunder_lvl),$(value r.gpkg right sunder_lvl)" "1,1" "a rigid house:"
+case $(wkt r.gpkg left) in *"10 1"*"10 9"* | *"10 9"*"10 1"*) ;; *) fail "the wall: $(wkt r.gpkg left)" ;; esac
+
+# A rung is not offered where the least size does not fit: 6 m by 18 m are left with 2 m.
+expect 3 separate h.gpkg m.gpkg "${words[@]}" --inset 2 --min-size 6.5
+expect 0 separate h.gpkg m.gpkg --overwrite "${words[@]}" --inset 2 --min-size 5.9
+
+# The check makes the shapes again, with the blocks of the result. One that is none of them is altered.
+checks=("${words[@]}" --no-blocks --block-field sunder_blk --before h.gpkg)
+expect 0 check r.gpkg -l houses "${checks[@]}" --inset 1,2 --rigid-where "name = 'opposite'" --stats c.json
+same "$(jq -c '[.moves.altered, .moves.not_a_translate]' c.json)" '[0,0]' "the check:"
+expect 3 check r.gpkg -l houses "${checks[@]}" --inset 2 --stats c.json
+same "$(jq -c '.moves.altered' c.json)" 2 "the check with another inset:"
+
+# Fifty rungs; the same bytes for any number of threads.
+many=$(seq -s, 0.05 0.05 2.5)
+expect 0 separate h.gpkg f.csv "${words[@]}" --inset "$many" --lco GEOMETRY=AS_WKT --layers main --threads 1 --stats f.json
+same "$(jq -c '.shrunk.inset > 0 and .shrunk.inset <= 3' f.json)" true "fifty rungs:"
+expect 0 separate h.gpkg f4.csv "${words[@]}" --inset "$many" --lco GEOMETRY=AS_WKT --layers main --threads 4
+cmp -s f.csv f4.csv || fail "other threads, another result"
+
+expect 0 separate h.gpkg f.gpkg "${words[@]}" --inset "$many"
+expect 0 check f.gpkg -l houses "${checks[@]}" --inset "$many"
+
+expect 2 separate h.gpkg x.gpkg "${words[@]}" --inset 2,1
+grep -q -- '--inset 2,1: lengths are above 0' err || fail "the message: $(cat err)"
+expect 2 separate h.gpkg x.gpkg "${words[@]}" --inset 0
+expect 2 separate h.gpkg x.gpkg "${words[@]}" --inset 1,x
+expect 2 separate h.gpkg x.gpkg "${words[@]}" --inset 1 --max-memory 1G
+expect 2 separate h.gpkg x.gpkg "${words[@]}" --inset 1 --proof p.jsonl
+expect 2 check h.gpkg --inset 1
+grep -q -- '--inset is a rule for moves' err || fail "the message: $(cat err)"
+
+/usr/bin/python3 -c 'from osgeo import ogr; import shapely' 2>/dev/null || { echo "without GDAL's Python module or shapely: no terraces"; finish; exit 0; }
+worlds=$((60 * ${SUNDER_TEST_SCALE:-1}))
+for also in "" trim; do
+    # shellcheck disable=SC2086
+    /usr/bin/python3 "$SUNDER_SOURCE/tests/cli/inset_worlds.py" "$SUNDER" "${SUNDER_SEED:-3}" "$worlds" $also || fail "the terraces"
+done
+finish
