@@ -1,9 +1,9 @@
 /* A cache of the half-planes between two pieces that are not made for a particular place. They are the same for every
  * candidate of a tree, and are needed in hundreds of thousands of its nodes. Consecutive questions about one model
- * share them, also if their gaps differ. The cache is a table with one slot for each hash: two pairs that hash to one
- * slot evict each other. Most trees meet a dozen pairs, a few meet thousands, so the table begins small and doubles
- * when half of its slots are taken. The cache only saves time: the half-planes are the same, and their cost is counted
- * the same. */
+ * share them, also if their gaps differ. The cache is a table of sets of SLOTS slots; a hash chooses the set, and if
+ * all its slots are taken another pair is evicted from one. Most trees meet a dozen pairs, a few meet thousands, so
+ * the table begins small and doubles when half of its slots are taken. The cache only saves time: the half-planes are
+ * the same, and their cost is counted the same. */
 #include "displacement/prove/proofs/branching.h"
 #include "displacement/prove/proofs/tuning.h"
 
@@ -63,8 +63,10 @@ typedef struct slot {
     size_t n, capacity;
 } slot;
 
+enum { SLOT_BITS = 2, SLOTS = 1 << SLOT_BITS }; /* the slots of a set */
+
 struct sunder_i_half_planes_kept {
-    slot *slot; /* [2^bits] */
+    slot *slot; /* [2^bits]: the sets, one after the other */
     size_t taken;
     int bits;
 };
@@ -78,11 +80,21 @@ static uint64_t hash_piece(const sunder_i_body_piece *piece)
     return mixed;
 }
 
+static uint64_t hash_pair(const sunder_i_body_piece *a, const sunder_i_body_piece *b)
+{
+    const uint64_t hash = hash_piece(a), mixed = (hash ^ hash >> 29) * UINT64_C(0x9e3779b97f4a7c15) + hash_piece(b);
+    return mixed * UINT64_C(0xd1342543de82ef95);
+}
+
+/* Returns the slot that holds a pair of pieces; if none does, an empty slot of its set, or one to evict. */
 static slot *slot_of(const struct sunder_i_half_planes_kept *kept, const sunder_i_body_piece *a,
                      const sunder_i_body_piece *b)
 {
-    const uint64_t hash = hash_piece(a), mixed = (hash ^ hash >> 29) * UINT64_C(0x9e3779b97f4a7c15) + hash_piece(b);
-    return &kept->slot[(mixed * UINT64_C(0xd1342543de82ef95)) >> (64 - kept->bits)];
+    const uint64_t hash = hash_pair(a, b);
+    slot *set = kept->slot + (hash >> (64 - kept->bits + SLOT_BITS)) * SLOTS;
+    for (size_t k = 0; k < SLOTS; k++)
+        if (!set[k].a || (set[k].a == a && set[k].b == b)) return &set[k];
+    return &set[hash % SLOTS];
 }
 
 /* Makes an empty cache; returns NULL if memory is out. */
@@ -105,8 +117,8 @@ void sunder_i_half_planes_forget(struct sunder_i_half_planes_kept **kept)
     *kept = NULL;
 }
 
-/* Doubles the table. A slot is the leading bits of a hash, so what one slot held goes to one of two new slots that
- * nothing else goes to. Returns false if memory is out. */
+/* Doubles the table. Leading bits of a hash choose a set, so the pairs of one set go to two new sets that no others go
+ * to. Returns false if memory is out. */
 static bool double_slots(struct sunder_i_half_planes_kept *kept)
 {
     const struct sunder_i_half_planes_kept old = *kept;
