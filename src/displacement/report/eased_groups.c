@@ -6,9 +6,7 @@
  *
  * If that tree does not come near the cost, each body has a tree of its own, with the prices of its pairs with what
  * does not move. Their sum, and the least prices of the other pairs, are a bound of the group, too.
- *
- * Where a pair overlaps, single pieces show less than its depth. So polygons that join pieces (joined_piece.c) are made
- * for the present layout, and then for each layout that a tree finds; the tree is begun again with them. */
+ */
 #include "displacement/layer/reads.h"
 #include "displacement/prove/optimum/body_contact.h"
 #include "displacement/prove/optimum/tree.h"
@@ -36,8 +34,6 @@ typedef struct eased_group {
     sunder_i_task_price *price;
     size_t prices, pair_capacity, movers;
     double pays, cost; /* the prices at the present place; with the cost of moves and springs */
-    sunder_i_joined *joined;
-    size_t joins, joined_capacity;
     double bound;
     sunder_i_list guests;
     sunder_i_bound_trees trees; /* if they are kept */
@@ -46,26 +42,10 @@ typedef struct eased_group {
 static void free_eased(eased_group *e)
 {
     sunder_i_bound_trees_free(&e->trees);
-    sunder_i_free_all(e->body.item, e->pair, e->price, e->joined, e->guests.item);
+    sunder_i_free_all(e->body.item, e->pair, e->price, e->guests.item);
 }
 
 /* ---- What a tree is about ---------------------------------------------------------------------------------------- */
-
-/* Adds the parts of the barrier of body j that body i may come near. */
-static bool add_parts(const sunder_i_model *model, eased_group *e, uint32_t i, uint32_t j)
-{
-    const double home[2] = {0, 0}, limit = sunder_i_limit_of(&model->body[i]);
-    const uint32_t whole = sunder_i_whole_of(model, model->member[model->body[j].member]);
-    sunder_i_list near = {0};
-    bool ok = limit == INFINITY || sunder_i_bodies_about(model, i, home, limit + model->rules.full_gap, &near);
-    for (size_t k = 0; k < near.n && ok; k++) {
-        const sunder_i_body *b = &model->body[near.item[k]];
-        if (sunder_i_is_barrier_body(model, b) && sunder_i_whole_of(model, model->member[b->member]) == whole)
-            ok = sunder_i_list_push(&e->body, near.item[k]);
-    }
-    sunder_i_free(near.item);
-    return ok && sunder_i_list_push(&e->body, j);
-}
 
 /* Is the pair one of the group? It is if the group has both bodies, or if the second one does not move. */
 static bool is_of_group(const sunder_i_model *model, const sunder_i_group *g, const sunder_i_lacking *l)
@@ -115,11 +95,8 @@ static bool gather_bodies(const sunder_i_model *model, const sunder_i_group *g, 
 {
     bool ok = true;
     for (size_t k = 0; k < g->n && ok; k++) ok = sunder_i_list_push(&e->body, g->body[k]);
-    for (size_t k = 0; k < e->prices && ok; k++) {
-        const sunder_i_lacking *l = &e->pair[k];
-        ok = sunder_i_is_barrier_body(model, &model->body[l->j]) ? add_parts(model, e, l->i, l->j)
-                                                                 : sunder_i_list_push(&e->body, l->j);
-    }
+    for (size_t k = 0; k < e->prices && ok; k++)
+        ok = sunder_i_tree_list_parts(model, e->pair[k].i, e->pair[k].j, &e->body);
     e->body.n = sunder_i_set_make(e->body.item, e->body.n);
     return ok;
 }
@@ -158,25 +135,11 @@ static bool gather(const sunder_report *report, const sunder_i_model *model, con
 
 /* ---- Proofs ------------------------------------------------------------------------------------------------------ */
 
-/* Runs a tree until it is complete, or its steps are used up, or a layout that it finds shows that further polygons are
- * needed: then *again is set. Returns false if memory is out. */
-static bool run_tree(sunder_i_tree *tree, eased_group *e, uint64_t steps, bool last, bool *again)
-{
-    const size_t before = e->joins;
-    for (bool found = true; found && !*again;) {
-        const sunder_i_tree_outcome outcome = sunder_i_tree_run(tree, steps);
-        if (tree->failed) return false;
-        found = outcome == SUNDER_I_TREE_FOUND || outcome == SUNDER_I_TREE_JOINED;
-        if (found && !last && !sunder_i_tree_join_pieces(tree, false, &e->joined, &e->joins, &e->joined_capacity))
-            return false;
-        *again = e->joins > before;
-    }
-    return true;
-}
-
 /* Keeps what the tree proves, and the bodies that joined it as guests. Returns false if memory is out. */
-static bool keep_bound(const sunder_i_model *model, const sunder_i_tree *tree, eased_group *e)
+static bool keep_bound(sunder_i_tree *tree, void *context)
 {
+    eased_group *e = context;
+    const sunder_i_model *model = tree->task.model;
     bool ok = true;
     e->bound = sunder_i_tree_bound(tree);
     for (size_t k = e->body.n; k < tree->task.n && ok; k++)
@@ -201,19 +164,8 @@ static bool prove_eased(const easing *x, const sunder_i_group *group, eased_grou
                           .price = e->price,
                           .prices = e->prices,
                           .keep = model->rules.keep_trees};
-    bool ok = true, again = true;
-    for (int round = 0; ok && again; round++) {
-        sunder_i_tree tree;
-        task.joined = e->joined;
-        task.joins = e->joins;
-        ok = sunder_i_tree_init(&tree, &task);
-        if (ok && round == 0) ok = sunder_i_tree_join_pieces(&tree, true, &e->joined, &e->joins, &e->joined_capacity);
-        again = ok && e->joins > task.joins;
-        if (ok && !again) ok = run_tree(&tree, e, (uint64_t)sunder_i_min(steps, 0x1p62), round >= MOST_JOINED, &again);
-        if (ok && !again) ok = keep_bound(model, &tree, e);
-        sunder_i_tree_free(&tree);
-    }
-    return ok;
+    const sunder_i_priced_run run = {(uint64_t)sunder_i_min(steps, 0x1p62), NULL, keep_bound, e};
+    return sunder_i_tree_run_priced(&task, &run);
 }
 
 /* Gives the group a greater bound, with its trees and guests. *former: receives what it had before. */

@@ -55,12 +55,11 @@
 /* ---- Bounds of eased groups (eased_groups.c) --------------------------------------------------------------------- */
 
 /* A group of at most MOST_EASED movable bodies gets a tree with EASED_STEPS steps for each, at effort 1; one with fewer
- * than FEWEST_EASED counts as one with that many. The tree is begun again with further polygons at most MOST_JOINED
- * times. A bound is near enough if only the share EASED_NEAR of the cost is missing. */
+ * than FEWEST_EASED counts as one with that many. A bound is near enough if only the share EASED_NEAR of the
+ * cost is missing. */
 #define MOST_EASED 24
 #define EASED_STEPS 1e7
 #define FEWEST_EASED 16.
-#define MOST_JOINED 32
 #define EASED_NEAR 0x1p-21
 /* If more than the share BODIES_NEAR of the cost is missing, each body has a tree with BODY_STEPS steps. */
 #define BODIES_NEAR 0x1p-10

@@ -232,6 +232,24 @@ static inline sunder_i_region *sunder_i_tree_region(sunder_i_tree *tree, uint32_
     return &tree->pair[tree->pair[pair].shares].region;
 }
 
+/* ---- priced_tree.c ----------------------------------------------------------------------------------------------- */
+
+/* How far a tree with prices runs, and what hears of it. */
+typedef struct sunder_i_priced_run {
+    uint64_t steps; /* of each tree; it is begun again if it needs further polygons */
+    /* NULL, or called for each layout that a tree finds, at program.t; it may lower the goal. Further polygons may show
+     * that the layout lacks more. Returns false if memory is out. */
+    bool (*found)(sunder_i_tree *tree, void *context);
+    bool (*ended)(sunder_i_tree *tree, void *context); /* the same for the tree that needed no further polygons */
+    void *context;
+} sunder_i_priced_run;
+
+/* Runs a tree whose task has prices; task->joined is not used. Returns false if memory is out. */
+bool sunder_i_tree_run_priced(const sunder_i_task *task, const sunder_i_priced_run *run);
+/* Appends body j to a list; if it is a part of a barrier also the parts of that barrier that body i may come near.
+ * Returns false if memory is out. */
+bool sunder_i_tree_list_parts(const sunder_i_model *model, uint32_t i, uint32_t j, sunder_i_list *body);
+
 /* ---- tree_eased.c ------------------------------------------------------------------------------------------------ */
 
 /* Makes the eased pairs of the task, and the cuts that they lack at least 0. */

@@ -254,6 +254,11 @@
 #define MOST_LEGS 6
 #define LEAST_SLOPE 0.02
 
+/* ---- Trees with prices (priced_tree.c) --------------------------------------------------------------------------- */
+
+/* Such a tree is begun again with further polygons at most MOST_JOINED times. */
+#define MOST_JOINED 32
+
 /* ---- Chords across ends of sides (tree_chords.c) ----------------------------------------------------------------- */
 
 /* At most TREE_SPOKES sides of one part of a barrier, with ends that an anchor passes, are compared. */

@@ -174,6 +174,24 @@ sunder_status sunder_i_solver_place_lone_bodies(sunder_i_solver *solver, sunder_
  * conflict worse. */
 sunder_status sunder_i_solver_ease(sunder_i_solver *solver, sunder_error *err);
 
+/* ---- eased_starts.c ---------------------------------------------------------------------------------------------- */
+
+/* What the trees of clusters have to know. */
+typedef struct sunder_i_eased_starts {
+    sunder_i_id_pair *pair; /* [pairs] sorted: the pairs of bodies in conflict, of which the first may move; owned */
+    size_t pairs;
+    uint32_t *group_of;      /* [bodies] the root of its cluster; SUNDER_I_NOBODY: it does not move; owned */
+    sunder_i_waiver *waived; /* [waived_n] owned */
+    size_t waived_n;
+} sunder_i_eased_starts;
+
+/* On failure the caller frees *starts, too. */
+sunder_status sunder_i_eased_starts_init(sunder_i_solver *solver, sunder_i_eased_starts *starts, sunder_error *err);
+void sunder_i_eased_starts_free(sunder_i_eased_starts *starts);
+/* Eases a small cluster from other starts; a sunder_i_cluster_work whose context is a sunder_i_eased_starts. */
+sunder_status sunder_i_eased_starts_try(const sunder_i_solver *solver, sunder_i_cluster *cluster, double *move,
+                                        void *context, sunder_error *err);
+
 /* ---- in_contact.c ------------------------------------------------------------------------------------------------ */
 
 /* After contact groups were gathered: moves wanted groups that have moved to places in contact without a margin, if
@@ -193,7 +211,10 @@ bool sunder_i_groups_join(sunder_i_groups *groups, uint32_t one, uint32_t other)
 
 /* ---- optimise.c -------------------------------------------------------------------------------------------------- */
 
-/* Lists the conflicts of the present layout, and the demands on them, in solver->groups.waived. */
+/* Lists the conflicts of the present layout, and the demands on them. *list is the caller's, also on failure. */
+sunder_status sunder_i_solver_find_waivers(const sunder_i_solver *solver, sunder_i_waiver **list, size_t *n,
+                                           sunder_error *err);
+/* Does so for the groups: in solver->groups.waived. */
 sunder_status sunder_i_solver_list_waivers(sunder_i_solver *solver, sunder_error *err);
 /* Proves a lower bound of the cost of each contact group; cheaper layouts found on the way are used. */
 sunder_status sunder_i_solver_optimise(sunder_i_solver *solver, sunder_error *err);

@@ -109,9 +109,10 @@ static sunder_status ease_cluster(const sunder_i_solver *s, sunder_i_cluster *c,
                                   sunder_error *err)
 {
     bool done;
+    double cost;
     (void)context;
     c->about = farthest_of(&s->model, c);
-    const sunder_status status = sunder_i_cluster_ease(&s->model, c, move, &done, err);
+    const sunder_status status = sunder_i_cluster_ease(&s->model, c, move, &cost, &done, err);
     if (done) c->outcome = SUNDER_I_WORKED_ON;
     return status;
 }
@@ -163,8 +164,8 @@ static bool is_foreign(const sunder_i_solver *s, const sunder_i_cluster *c, uint
     return !s->model.body[body].fixed && !sunder_i_set_has(c->body, c->n, body);
 }
 
-/* The exact check refused a pair: if it is one of two clusters, these will be one; otherwise the pair is pinned.
- * *again: there is another attempt for the cluster. */
+/* The exact check refused a pair: if it is one of two clusters, these will be one; otherwise the pair is pinned, unless
+ * `again` is NULL. *again: there is another attempt for the cluster. */
 static sunder_status refuse_pair(sunder_i_solver *s, sunder_i_cluster *c, const sunder_i_id_pair *pair, bool *again,
                                  sunder_error *err)
 {
@@ -173,7 +174,7 @@ static sunder_status refuse_pair(sunder_i_solver *s, sunder_i_cluster *c, const 
         if (!sunder_i_reserve(&c->guest, &c->guest_capacity, c->guests + 1, sizeof *c->guest))
             return sunder_i_failure_cause(err);
         c->guest[c->guests++] = (sunder_i_id_pair){i, j};
-    } else if (i != j && pin_pair(s, i, j)) {
+    } else if (i != j && again && pin_pair(s, i, j)) {
         *again = true;
         return SUNDER_OK;
     }
@@ -181,13 +182,14 @@ static sunder_status refuse_pair(sunder_i_solver *s, sunder_i_cluster *c, const 
     return SUNDER_OK;
 }
 
-/* Moves the bodies of a cluster to where they are eased, if the exact check lets them stay there. */
+/* Moves the bodies of a cluster to where they are eased, if the exact check lets them stay there. again: see
+ * refuse_pair(). */
 static sunder_status try_moves(sunder_i_solver *s, sunder_i_cluster *c, bool *again, sunder_error *err)
 {
     const double none[2] = {0, 0}, *move = s->move + 2 * (size_t)(c->body - s->body);
     sunder_i_trial t = {.solver = s, .whole_rows = true};
     sunder_i_reading reading;
-    if (pin_inexact(s, c, move)) {
+    if (again && pin_inexact(s, c, move)) {
         *again = true;
         return SUNDER_OK;
     }
@@ -203,12 +205,13 @@ static sunder_status try_moves(sunder_i_solver *s, sunder_i_cluster *c, bool *ag
     return status;
 }
 
-static sunder_status ease_clusters(sunder_i_solver *s, sunder_i_cluster_test test, bool *again, sunder_error *err)
+/* Has work done on the clusters that pass the test, and tries their moves. again: see refuse_pair(). */
+static sunder_status work_on_clusters(sunder_i_solver *s, sunder_i_cluster_test test, sunder_i_cluster_work work,
+                                      void *context, bool *again, sunder_error *err)
 {
     for (size_t k = 0; k < s->clusters; k++) s->cluster[k].outcome = SUNDER_I_UNTOUCHED;
-    sunder_status status = sunder_i_solver_for_clusters(s, test, ease_cluster, NULL, err);
+    sunder_status status = sunder_i_solver_for_clusters(s, test, work, context, err);
     sunder_i_pieces_forget(&s->model, SUNDER_I_PIECES_HELD);
-    *again = false;
     for (size_t k = 0; k < s->clusters && !status; k++) {
         sunder_i_cluster *c = &s->cluster[k];
         if (c->outcome == SUNDER_I_UNTOUCHED)
@@ -216,6 +219,23 @@ static sunder_status ease_clusters(sunder_i_solver *s, sunder_i_cluster_test tes
         else
             status = try_moves(s, c, again, err);
     }
+    return status;
+}
+
+static sunder_status ease_clusters(sunder_i_solver *s, sunder_i_cluster_test test, bool *again, sunder_error *err)
+{
+    *again = false;
+    return work_on_clusters(s, test, ease_cluster, NULL, again, err);
+}
+
+/* Eases clusters from other starts (eased_starts.c). A layout that the exact check refuses is given up: the present one
+ * is eased already. */
+static sunder_status try_starts(sunder_i_solver *s, sunder_error *err)
+{
+    sunder_i_eased_starts starts;
+    sunder_status status = sunder_i_eased_starts_init(s, &starts, err);
+    if (!status) status = work_on_clusters(s, has_to_ease, sunder_i_eased_starts_try, &starts, NULL, err);
+    sunder_i_eased_starts_free(&starts);
     return status;
 }
 
@@ -266,6 +286,7 @@ static sunder_status ease_round(sunder_i_solver *s, bool *more, sunder_error *er
     if (!status) status = ease_clusters(s, has_to_ease, &again, err);
     for (int k = 0; k < MOST_PINNINGS && again && !status; k++) status = ease_clusters(s, has_pinned, &again, err);
     for (size_t b = 0; b < s->model.bodies; b++) s->model.body[b].pinned = false;
+    if (!status && !sunder_i_has_slack(&s->model)) status = try_starts(s, err);
     if (!status) status = join_guests(s, more, err);
     if (!status && sunder_i_has_slack(&s->model)) status = join_short_pairs(s, false, &apart, err);
     *more = *more || apart;

@@ -60,13 +60,14 @@ static bool forget_proofs(sunder_i_solver *s, const sunder_i_waiver *before, siz
     return true;
 }
 
-/* Adds a pair to the list. Its demand is that of the former list, before[n], or is computed from the start. */
-static sunder_status list_pair(sunder_i_solver *s, const sunder_i_relation *r, const sunder_i_waiver *before, size_t n,
+/* Adds a pair to the list of *m. Its demand is that of the list of groups, or is computed from the start. */
+static sunder_status list_pair(const sunder_i_solver *s, const sunder_i_relation *r, sunder_i_waiver *list, size_t *m,
                                sunder_error *err)
 {
-    sunder_i_groups *groups = &s->groups;
+    const sunder_i_waiver *before = s->groups.waived;
+    const size_t n = s->groups.waived_n;
     const uint32_t a = r->a, b = sunder_i_whole_of(&s->model, r->b);
-    sunder_i_waiver *last = groups->waived_n ? &groups->waived[groups->waived_n - 1] : NULL;
+    sunder_i_waiver *last = *m ? &list[*m - 1] : NULL;
     if (last && last->a == a && last->b == b) {
         last->overlap = last->overlap || r->overlap;
         return SUNDER_OK;
@@ -79,24 +80,37 @@ static sunder_status list_pair(sunder_i_solver *s, const sunder_i_relation *r, c
         held.clearance = known->stood;
     else if (sunder_i_is_conflict_of_bodies(&s->model, r))
         status = sunder_i_requirement_find(&s->model, &s->start, a, b, &held, err);
-    if (!status) groups->waived[groups->waived_n++] = (sunder_i_waiver){a, b, held.clearance, r->overlap};
+    if (!status) list[(*m)++] = (sunder_i_waiver){a, b, held.clearance, r->overlap};
+    return status;
+}
+
+sunder_status sunder_i_solver_find_waivers(const sunder_i_solver *solver, sunder_i_waiver **list, size_t *n,
+                                           sunder_error *err)
+{
+    *n = 0;
+    *list = sunder_i_alloc(solver->now.n, sizeof **list);
+    sunder_status status = *list ? SUNDER_OK : sunder_i_failure_cause(err);
+    for (size_t k = 0; k < solver->now.n && !status; k++)
+        if (sunder_i_is_conflict(&solver->now.pair[k])) status = list_pair(solver, &solver->now.pair[k], *list, n, err);
     return status;
 }
 
 sunder_status sunder_i_solver_list_waivers(sunder_i_solver *solver, sunder_error *err)
 {
     sunder_i_groups *groups = &solver->groups;
-    sunder_i_waiver *before = groups->waived;
-    const size_t n = groups->waived_n;
-    groups->waived_n = 0;
-    groups->waived = sunder_i_alloc(solver->now.n, sizeof *groups->waived);
-    sunder_status status = groups->waived ? SUNDER_OK : sunder_i_failure_cause(err);
-    for (size_t k = 0; k < solver->now.n && !status; k++)
-        if (sunder_i_is_conflict(&solver->now.pair[k]))
-            status = list_pair(solver, &solver->now.pair[k], before, n, err);
-    if (!status && !forget_proofs(solver, before, n)) status = sunder_i_failure_cause(err);
+    sunder_i_waiver *before = groups->waived, *list;
+    size_t n;
+    const sunder_status status = sunder_i_solver_find_waivers(solver, &list, &n, err);
+    if (status) {
+        sunder_i_free(list);
+        return status;
+    }
+    const size_t before_n = groups->waived_n;
+    groups->waived = list;
+    groups->waived_n = n;
+    const bool ok = forget_proofs(solver, before, before_n);
     sunder_i_free(before);
-    return status;
+    return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
 /* Groups with a pinned body keep their layout. */

@@ -185,5 +185,12 @@
  * in at most MOST_JOININGS_OF_TIGHT - 1. Clusters that nothing has joined are not eased again. */
 #define MOST_JOININGS 6
 #define MOST_JOININGS_OF_TIGHT 24
+/* A cluster of at most MOST_STARTED movable bodies is eased from at most MOST_STARTS other starts, which its tree finds
+ * in STARTED_STEPS steps for each body, at effort 1 (eased_starts.c). The tree looks for layouts that are cheaper by
+ * the share START_NEAR. */
+#define MOST_STARTED 24
+#define MOST_STARTS 8
+#define STARTED_STEPS 1e6
+#define START_NEAR 0x1p-12
 
 #endif

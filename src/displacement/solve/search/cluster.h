@@ -99,9 +99,14 @@ sunder_status sunder_i_cluster_descend(const sunder_i_model *model, const sunder
 
 /* Eases the pairs of the cluster that are left in conflict, from a layout without clashes. Bodies outside the cluster
  * keep their places; those that are in the way are added to cluster->guest. *done if that costs less; the moves are
- * rounded then. */
-sunder_status sunder_i_cluster_ease(const sunder_i_model *model, sunder_i_cluster *cluster, double *move, bool *done,
-                                    sunder_error *err);
+ * rounded then. *cost is what the moves, old or new, cost. */
+sunder_status sunder_i_cluster_ease(const sunder_i_model *model, sunder_i_cluster *cluster, double *move, double *cost,
+                                    bool *done, sunder_error *err);
+/* The same from other moves of the cluster, start[2 * n], which may clash a little. *done if that costs less than
+ * *cost. */
+sunder_status sunder_i_cluster_ease_from(const sunder_i_model *model, const sunder_i_cluster *cluster,
+                                         const double *start, double *move, double *cost, bool *done,
+                                         sunder_error *err);
 
 /* ---- pair_margin.c ----------------------------------------------------------------------------------------------- */
 

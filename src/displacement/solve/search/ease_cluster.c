@@ -5,6 +5,7 @@
 #include "displacement/solve/search/tuning.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Sets *a and *b to the bodies of a constraint of two pieces, or of a tight pair. Returns false if it is another. */
 static bool find_bodies(const sunder_i_search *s, const sunder_i_constraint *c, uint32_t *a, uint32_t *b)
@@ -61,14 +62,19 @@ static bool find_row_guests(const sunder_i_search *s, sunder_i_cluster *cluster)
     return true;
 }
 
-/* Descends from the moves of the search. Returns whether that ends without clashes at a lower cost. */
-static bool descend(sunder_i_search *s)
+/* What the moves t cost, with the prices of all that pairs lack of their full distances. */
+static double full_cost(sunder_i_search *s, const double *t)
 {
     s->prices_tight = s->fully = sunder_i_has_slack(s->model);
-    const double before = sunder_i_search_cost(s, s->t);
+    const double cost = sunder_i_search_cost(s, t);
     s->prices_tight = false;
+    return cost;
+}
+
+/* Descends from the moves of the search. Returns whether that ends without clashes at less than `before`. */
+static bool descend(sunder_i_search *s, double before)
+{
     s->settled = EASED;
-    if (!(before > 0)) return false;
     /* Where there is no room for margins, the exact check decides. */
     if (!sunder_i_search_keep_margins(s) && sunder_i_search_find_clashes(s, s->t) > s->tolerance) return false;
     s->prices_tight = s->fully;
@@ -76,15 +82,18 @@ static bool descend(sunder_i_search *s)
     return sunder_i_search_descend(s) && sunder_i_search_cost(s, s->t) < before * (1 - CHEAPER);
 }
 
-sunder_status sunder_i_cluster_ease(const sunder_i_model *model, sunder_i_cluster *cluster, double *move, bool *done,
-                                    sunder_error *err)
+sunder_status sunder_i_cluster_ease(const sunder_i_model *model, sunder_i_cluster *cluster, double *move, double *cost,
+                                    bool *done, sunder_error *err)
 {
     sunder_i_search s;
     *done = false;
+    *cost = 0;
     const bool ok = sunder_i_search_init_about(&s, model, cluster, move) && sunder_i_search_ease(&s);
     s.failed = s.failed || !ok;
     const bool priced = s.shortfalls || sunder_i_has_slack(model);
-    if (!s.failed && priced) *done = descend(&s);
+    if (!s.failed && priced) *cost = full_cost(&s, s.t);
+    if (!s.failed && *cost > 0) *done = sunder_i_search_ask_margins(&s) && descend(&s, *cost);
+    if (!s.failed && *done) *cost = sunder_i_search_cost(&s, s.t);
     s.n = cluster->n;
     if (*done && !s.failed) sunder_i_search_round(&s, move);
     if (!s.failed && priced && !find_guests(&s, cluster)) s.failed = true;
@@ -92,4 +101,44 @@ sunder_status sunder_i_cluster_ease(const sunder_i_model *model, sunder_i_cluste
     const bool failed = s.failed;
     sunder_i_search_free(&s);
     return failed ? sunder_i_failure_cause(err) : SUNDER_OK;
+}
+
+/* Turns the overlaps that may remain into the directions in which they are least at the present moves. The search holds
+ * an overlap to one direction, while a layout may have any. */
+static sunder_status turn_overlaps(sunder_i_search *s, sunder_error *err)
+{
+    sunder_status status = SUNDER_OK;
+    for (size_t k = 0; k < s->relaxations.n && !status; k++) {
+        sunder_i_relaxation *r = &s->relaxations.item[k];
+        const uint32_t i = sunder_i_search_place_of(s, s->model->body_of[r->a]),
+                       j = sunder_i_search_place_of(s, s->model->body_of[r->b]);
+        bool fits;
+        if (r->inside || (r->shift[0] == 0 && r->shift[1] == 0)) continue;
+        status = sunder_i_relaxation_turn(s->model, s->t + 2 * (size_t)i, s->t + 2 * (size_t)j, r, &fits, err);
+    }
+    return status;
+}
+
+sunder_status sunder_i_cluster_ease_from(const sunder_i_model *model, const sunder_i_cluster *cluster,
+                                         const double *start, double *move, double *cost, bool *done, sunder_error *err)
+{
+    sunder_i_search s;
+    sunder_status status = SUNDER_OK;
+    *done = false;
+    bool ok = sunder_i_search_init_about(&s, model, cluster, move) && sunder_i_search_ease(&s) &&
+              sunder_i_search_ask_margins(&s);
+    if (ok) memcpy(s.t, start, 2 * cluster->n * sizeof *start);
+    if (ok && full_cost(&s, s.t) < *cost) {
+        status = turn_overlaps(&s, err);
+        *done = !status && descend(&s, *cost);
+    }
+    ok = ok && !s.failed;
+    if (ok && *done) {
+        *cost = sunder_i_search_cost(&s, s.t);
+        s.n = cluster->n;
+        sunder_i_search_round(&s, move);
+    }
+    sunder_i_search_free(&s);
+    if (status) return status;
+    return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }

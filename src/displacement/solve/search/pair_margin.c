@@ -73,10 +73,15 @@ static void spare_others(sunder_i_search *s, uint32_t i, uint32_t j)
     sunder_i_free(clash);
 }
 
+bool sunder_i_search_ask_margins(sunder_i_search *search)
+{
+    return ask_margins(search, SUNDER_I_NOBODY, SUNDER_I_NOBODY);
+}
+
 bool sunder_i_search_keep_margins(sunder_i_search *search)
 {
     double *stood = sunder_i_search_copy_moves(search);
-    bool done = stood && ask_margins(search, SUNDER_I_NOBODY, SUNDER_I_NOBODY) && sunder_i_search_repair(search);
+    bool done = stood && sunder_i_search_repair(search);
     if (stood && !done && !search->failed) {
         memcpy(search->t, stood, 2 * search->n * sizeof *stood);
         search->program.n = 0;

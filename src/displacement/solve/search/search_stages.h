@@ -125,8 +125,10 @@ bool sunder_i_search_mend_few(sunder_i_search *search);
 
 /* ---- pair_margin.c ----------------------------------------------------------------------------------------------- */
 
-/* Demands the margin of pairs left in conflict as well: of all, or if there is no such place nearby, of those that keep
- * it already. True if search->t is a place without clashes then; otherwise it has not changed. */
+/* Demands the margin of all pairs left in conflict as well. False if memory is out. */
+bool sunder_i_search_ask_margins(sunder_i_search *search);
+/* Moves to a place nearby without clashes, at which all pairs left in conflict keep their margins or, if there is none,
+ * those that keep it already. True if search->t is such a place then; otherwise it has not changed. */
 bool sunder_i_search_keep_margins(sunder_i_search *search);
 
 /* ---- lone_pair.c ------------------------------------------------------------------------------------------------- */
