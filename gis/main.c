@@ -34,6 +34,8 @@ const gis_command gis_commands[] = {
      "--gap 3m --shards 16 houses.gpkg houses.plan", gis_command_plan},
     {GIS_MERGE, "merge", "PLAN OUTPUT", 2, 2, "Joins the shards of a plan, and writes what separate writes",
      "houses.plan separated.gpkg", gis_command_merge},
+    {GIS_FOLLOW, "follow", "MOVED INPUT OUTPUT", 3, 3, "Takes another layer along with what separate moved",
+     "separated.gpkg addresses.gpkg addresses_moved.gpkg", gis_command_follow},
 };
 const size_t gis_n_commands = sizeof gis_commands / sizeof gis_commands[0];
 

@@ -181,6 +181,12 @@ typedef struct sunder_point {
  * exact. The coordinates must be finite. Nothing is allocated, so the function cannot fail. */
 SUNDER_API int sunder_orient(const sunder_point *a, const sunder_point *b, const sunder_point *c);
 
+/* Returns where a point lies: +1 in the interior of a member of the shape, 0 on a ring of a member and in the interior
+ * of none, -1 outside. The interior of a polygon is what its rings enclose by the even-odd rule, without the rings. The
+ * result is exact for the rings that were given. The coordinates of `at` must be finite. Nothing is allocated, so the
+ * function cannot fail. Cost: O(n) if the point lies in the box of the shape, else O(1). */
+SUNDER_API int sunder_shape_locate(const sunder_shape *shape, const sunder_point *at);
+
 #ifdef __cplusplus
 }
 #endif

@@ -12,6 +12,7 @@ int gis_command_buffer(const gis_options *options);
 int gis_command_route(const gis_options *options);
 int gis_command_plan(const gis_options *options);
 int gis_command_merge(const gis_options *options);
+int gis_command_follow(const gis_options *options);
 /* the command line separate --shard K PLAN */
 int gis_command_shard(const gis_options *options);
 

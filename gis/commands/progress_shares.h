@@ -11,5 +11,7 @@
 #define GIS_CHECK_CHECKED 0.9
 #define GIS_BUFFER_READ 0.1
 #define GIS_BUFFER_MADE 0.9
+#define GIS_FOLLOW_READ 0.2
+#define GIS_FOLLOW_ATTACHED 0.6
 
 #endif

@@ -82,7 +82,7 @@ static const char *output_of(const gis_options *options) { return options->opera
 static gis_source_request resolve_source(const gis_options *options)
 {
     return (gis_source_request){
-        .path = options->operand[0],
+        .path = options->operand[options->command->bit == GIS_FOLLOW ? 1 : 0],
         .drivers = options->list[OPT_IF],
         .open_options = options->list[OPT_OO],
         .layer = options->text[OPT_INPUT_LAYER],
@@ -479,6 +479,40 @@ bool gis_resolve_route(const gis_options *options, gis_route_request *out, gis_e
     return true;
 }
 
+/* Parses the text of --by: a word, or a word, a colon and a value. */
+static bool resolve_by(const gis_options *options, gis_follow_request *out, gis_error *error)
+{
+    static const char nearest[] = "nearest:", field[] = "field:";
+    const char *text = options->given[OPT_BY] ? options->text[OPT_BY] : "inside", *why;
+    if (strcmp(text, "inside") == 0) return true;
+    if (strncmp(text, nearest, strlen(nearest)) == 0) {
+        out->by = GIS_FOLLOW_NEAREST;
+        out->within.text = text + strlen(nearest);
+        return gis_length_parse(out->within.text, strlen(out->within.text), &out->within.length, &why) ||
+               gis_fail_usage(error, "--by %s: %s", text, why);
+    }
+    if (strncmp(text, field, strlen(field)) == 0 && text[strlen(field)]) {
+        out->by = GIS_FOLLOW_FIELD;
+        out->field = text + strlen(field);
+        return true;
+    }
+    return gis_fail_usage(error, "--by %s: expected inside, nearest:LENGTH or field:NAME", text);
+}
+
+bool gis_resolve_follow(const gis_options *options, gis_follow_request *out, gis_error *error)
+{
+    *out = (gis_follow_request){
+        .moved = {.path = options->operand[0]},
+        .input = resolve_source(options),
+        .id_field = options->text[OPT_ID_FIELD],
+        .scale = options->number[OPT_SCALE],
+    };
+    if (!resolve_by(options, out, error)) return false;
+    if (out->id_field && out->by != GIS_FOLLOW_FIELD)
+        return gis_fail_usage(error, "--id-field: the field of MOVED that --by field:NAME names; give that, too");
+    return resolve_invalid(options, &out->invalid, error);
+}
+
 /* ---- Destinations of results ------------------------------------------------------------------------------------- */
 
 gis_sink_request gis_resolve_sink(const gis_options *options, const char *path, const char *main_layer)
@@ -516,7 +550,7 @@ gis_destinations gis_resolve_destinations(const gis_options *options)
 gis_progress gis_resolve_progress(const gis_options *options)
 {
     bool json = strcmp(options->text[OPT_MESSAGES], "json") == 0;
-    bool layers = (options->command->bit & (GIS_LAYERS | GIS_BUFFER | GIS_MERGE)) || output_of(options);
+    bool layers = (options->command->bit & (GIS_LAYERS | GIS_BUFFER | GIS_MERGE | GIS_FOLLOW)) || output_of(options);
     gis_progress_kind kind = layers && !json && isatty(STDERR_FILENO) ? GIS_PROGRESS_BAR : GIS_PROGRESS_NONE;
     if (options->given[OPT_PROGRESS]) kind = options->text[OPT_PROGRESS] ? GIS_PROGRESS_PLAIN : GIS_PROGRESS_BAR;
     return gis_progress_new(options->given[OPT_QUIET] ? GIS_PROGRESS_NONE : kind);

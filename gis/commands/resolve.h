@@ -7,6 +7,7 @@
 #include "base/message.h"
 #include "base/progress.h"
 #include "buffer/buffer.h"
+#include "follow/follow.h"
 #include "options/options.h"
 #include "route/route_input.h"
 #include "sum/operands.h"
@@ -32,6 +33,9 @@ bool gis_resolve_buffer(const gis_options *options, gis_buffer_request *out, gis
 /* Route: its request; refuses as gis_resolve_buffer() does. The caller clears *out with gis_route_request_clear(), on
  * failure, too. */
 bool gis_resolve_route(const gis_options *options, gis_route_request *out, gis_error *error);
+
+/* Follow: its request. */
+bool gis_resolve_follow(const gis_options *options, gis_follow_request *out, gis_error *error);
 
 /* *bytes becomes the size of --max-memory in bytes; 0 if it was not given. */
 bool gis_resolve_memory(const gis_options *options, double *bytes, gis_error *error);

@@ -200,42 +200,51 @@ bool gis_geometry_points(OGRGeometryH geometry, double **xy, size_t *n, gis_erro
     return true;
 }
 
-/* ---- Translation ------------------------------------------------------------------------------------------------- */
+/* ---- Translation, and other changes of vertices ------------------------------------------------------------------ */
 
-static void translate_leaf(OGRGeometryH leaf, double dx, double dy)
+/* Sets the X and Y of a vertex by the setter for the geometry's dimension; another one would add or clear Z or M. */
+static void set_vertex(OGRGeometryH leaf, int i, const double xy[2])
 {
-    int n = OGR_G_GetPointCount(leaf);
     bool z = OGR_G_Is3D(leaf), m = OGR_G_IsMeasured(leaf);
-    for (int i = 0; i < n; i++) {
-        double x = OGR_G_GetX(leaf, i) + dx, y = OGR_G_GetY(leaf, i) + dy;
-        /* Use the setter for the geometry's dimension; another one would add or clear Z or M. */
-        if (z && m)
-            OGR_G_SetPointZM(leaf, i, x, y, OGR_G_GetZ(leaf, i), OGR_G_GetM(leaf, i));
-        else if (m)
-            OGR_G_SetPointM(leaf, i, x, y, OGR_G_GetM(leaf, i));
-        else if (z)
-            OGR_G_SetPoint(leaf, i, x, y, OGR_G_GetZ(leaf, i));
-        else
-            OGR_G_SetPoint_2D(leaf, i, x, y);
-    }
+    if (z && m)
+        OGR_G_SetPointZM(leaf, i, xy[0], xy[1], OGR_G_GetZ(leaf, i), OGR_G_GetM(leaf, i));
+    else if (m)
+        OGR_G_SetPointM(leaf, i, xy[0], xy[1], OGR_G_GetM(leaf, i));
+    else if (z)
+        OGR_G_SetPoint(leaf, i, xy[0], xy[1], OGR_G_GetZ(leaf, i));
+    else
+        OGR_G_SetPoint_2D(leaf, i, xy[0], xy[1]);
 }
 
-static void translate_vertices(OGRGeometryH geometry, double dx, double dy)
+bool gis_geometry_change(OGRGeometryH geometry, gis_vertex_change *change, void *user, gis_error *error)
 {
-    if (OGR_G_IsEmpty(geometry)) return; /* setting coordinates of an empty point would make it non-empty */
-    if (is_leaf(wkbFlatten(OGR_G_GetGeometryType(geometry)))) {
-        translate_leaf(geometry, dx, dy);
-        return;
+    if (!geometry || OGR_G_IsEmpty(geometry)) return true; /* an empty point with coordinates would not be empty */
+    if (!is_leaf(wkbFlatten(OGR_G_GetGeometryType(geometry)))) {
+        for (int i = 0; i < OGR_G_GetGeometryCount(geometry); i++)
+            if (!gis_geometry_change(OGR_G_GetGeometryRef(geometry, i), change, user, error)) return false;
+        return true;
     }
-    for (int i = 0; i < OGR_G_GetGeometryCount(geometry); i++)
-        translate_vertices(OGR_G_GetGeometryRef(geometry, i), dx, dy);
+    const int n = OGR_G_GetPointCount(geometry);
+    for (int i = 0; i < n; i++) {
+        double xy[2] = {OGR_G_GetX(geometry, i), OGR_G_GetY(geometry, i)};
+        if (!change(user, xy, error)) return false;
+        set_vertex(geometry, i, xy);
+    }
+    return true;
+}
+
+static bool translate_vertex(void *user, double xy[2], gis_error *error)
+{
+    const double *move = user;
+    (void)error;
+    for (int k = 0; k < 2; k++) xy[k] += move[k];
+    return true;
 }
 
 bool gis_geometry_translate(OGRGeometryH geometry, double dx, double dy, gis_error *error)
 {
-    (void)error;
-    if (geometry && (dx != 0 || dy != 0)) translate_vertices(geometry, dx, dy);
-    return true;
+    double move[2] = {dx, dy};
+    return (dx == 0 && dy == 0) || gis_geometry_change(geometry, translate_vertex, move, error);
 }
 
 /* ---- New geometries ---------------------------------------------------------------------------------------------- */

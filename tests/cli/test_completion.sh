@@ -15,9 +15,9 @@ _sunder 2>&1
 X
 offered() { bash --norc -c "$(cat ask.sh)" "$script" "$@" | sort | paste -sd ' '; }
 
-same "$(offered sunder '')" '--help --options-json --version buffer check merge pair plan route separate sum' commands
+same "$(offered sunder '')" '--help --options-json --version buffer check follow merge pair plan route separate sum' commands
 same "$(offered sunder se)" separate 'one command'
-for command in separate check sum pair buffer route plan merge; do
+for command in separate check sum pair buffer route plan merge follow; do
     "$SUNDER" --options-json | python3 -c '
 import json, sys
 for command in json.load(sys.stdin)["commands"]:

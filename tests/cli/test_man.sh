@@ -8,7 +8,7 @@ page=$SUNDER_SOURCE/gis/sunder.1
 headings() { sed -n '/^\.SH OPTIONS/,/^\.SH [A-Z]/ s/^\.B \(\\-.*\)/\1/p' "$1" | sed 's/\\//g' | sort; }
 sed -n '/^\.SH OPTIONS/,$ p' "$page" | sed '1! { /^\.SH/,$ d }' >options
 headings options >page.txt
-for command in separate check sum pair buffer route plan merge; do
+for command in separate check sum pair buffer route plan merge follow; do
     # a group of options on one line stands behind its title
     "$SUNDER" $command --help | sed 's/^\([A-Z][^:]*:\) --/\1\n  --/' >help
     # Either one option per line, with its explanation after two blanks or more, or several per line, with commas.
@@ -32,7 +32,7 @@ cmp -s page.txt help.txt || fail "manual page and --help differ: $(diff page.txt
 [ "$(wc -l <page.txt)" -gt 40 ] || fail "only $(wc -l <page.txt) options were compared"
 
 # Every spelling that a command lists is accepted by its parser.
-for command in separate check sum pair buffer route plan merge; do
+for command in separate check sum pair buffer route plan merge follow; do
     "$SUNDER" $command --help | tr ' ,()' '\n\n\n\n' | sed -n 's/^\(-[a-z_][a-z_-]*\|--[a-z-]*\)\(\[=plain\]\)\{0,1\}$/\1/p' |
         grep -vxE -- '--help|-h' | sort -u | sed "s/^/$command /"
 done >spellings
@@ -45,7 +45,7 @@ same "$(wc -l <asked)" "$(wc -l <spellings)" 'answers to all spellings:'
 
 # The page of each command has the options of its --help.
 pages=$SUNDER_BUILD/gis/manual
-for command in separate check sum pair buffer route plan merge; do
+for command in separate check sum pair buffer route plan merge follow; do
     [ -d "$pages" ] || continue # in a cross-compiled build there are no pages
     "$SUNDER" --options-json | json ".commands[] | select(.name == \"$command\") | .options[] | select(.group != \"hidden\") |
         .name + (if .metavar == null then \"\" elif .kind == \"flag_or_enum\" then \"[=\" + .metavar + \"]\" else \" \" + .metavar end) +
@@ -72,6 +72,7 @@ if command -v man >/dev/null; then
 fi
 
 cp "$SUNDER_SOURCE/datasets-synthetic/town.gpkg" .
+ogr2ogr addresses.gpkg town.gpkg -nln addresses -dialect SQLite -sql 'SELECT ST_PointOnSurface(geom) FROM buildings'
 PATH=$work/bin:$PATH
 mkdir bin
 ln -s "$SUNDER" bin/sunder

@@ -8,7 +8,7 @@ expect 0 --options-json
 mv out options.json
 refused 2 'unknown option' separate --options-json a b
 
-for command in separate check sum pair buffer route plan merge; do "$SUNDER" $command --help >help.$command; done
+for command in separate check sum pair buffer route plan merge follow; do "$SUNDER" $command --help >help.$command; done
 python3 "$SUNDER_SOURCE/tests/cli/options.py" help <options.json >said || fail "$(cat said)"
 
 # Each option is passed to the parser alone, in all of its spellings, to find out whether it takes a value and whether
@@ -37,7 +37,7 @@ refused 2 '--to X,Y is missing' route square:1 --robot square:1 --from 5,5
 same "$(json '[.commands[].options[] | select(.needed) | .name] | sort | join(" ")' options.json)" \
     '--from --robot --shape --shards --to' 'needed:'
 same "$(json '[.commands[] | .name + ":" + ([.operands[] | select(.needed) | .name] | join(","))] | join(" ")' options.json)" \
-    'separate:INPUT,OUTPUT check:INPUT sum:P,Q pair:P,Q buffer:INPUT,OUTPUT route:OBSTACLES plan:INPUT,PLAN merge:PLAN,OUTPUT' 'operands:'
+    'separate:INPUT,OUTPUT check:INPUT sum:P,Q pair:P,Q buffer:INPUT,OUTPUT route:OBSTACLES plan:INPUT,PLAN merge:PLAN,OUTPUT follow:MOVED,INPUT,OUTPUT' 'operands:'
 
 # Giving a default explicitly changes nothing.
 expect 0 separate in.gpkg plain.gpkg --quiet

@@ -9,7 +9,7 @@ sed -n '3p' out | grep -qE '^GMP [0-9]+\.[0-9]+\.[0-9]+$' || fail "--version say
 same "$(wc -l <out)" 3 'lines of --version'
 expect 0 --help
 mv out commands
-for command in separate check sum pair buffer route plan merge; do
+for command in separate check sum pair buffer route plan merge follow; do
     says commands "  $command "
     expect 0 $command --help
     [ ! -s err ] || fail "$command --help writes to stderr"
@@ -52,14 +52,14 @@ id,WKT
 X
 # Every value that --help lists for an option is accepted by its parser.
 words_tried=0
-for command in separate check sum pair buffer route plan merge; do
+for command in separate check sum pair buffer route plan merge follow; do
     case $command in
     check) operands=(in.gpkg --before in.gpkg) ;;
     sum | pair) operands=(square:1 square:1) ;;
     buffer) operands=(in.gpkg o.gpkg --shape square:1) ;;
     route) operands=(square:1 --robot square:1 --from '5,5' --to '6,6') ;;
     plan) operands=(in.gpkg in.plan --shards 2) ;;
-    merge) continue ;; # its options have no lists of values
+    merge | follow) continue ;; # their options have no lists of values
     *) operands=(in.gpkg o.gpkg) ;;
     esac
     "$SUNDER" $command --help | grep -oE -- '--[a-z-]+ [a-z0-9-]+(\|[a-z0-9-]+)+' >choices

@@ -220,7 +220,7 @@ _QGIS_WRITES = "the program writes a GeoPackage of the plug-in's; QGIS writes it
 _OURS = "set by the plug-in"
 _SHARDS = "a layer in shards is for clusters, which have no dialogs"
 # The commands that no dialog runs, with the reasons.
-LEFT_OUT_COMMANDS = {"plan": _SHARDS, "merge": _SHARDS}
+LEFT_OUT_COMMANDS = {"plan": _SHARDS, "merge": _SHARDS, "follow": "run in the shell, on the layers that QGIS wrote"}
 LEFT_OUT = {
     "--input-layer": _OURS, "--where": _QGIS_CHOOSES, "--sql": _QGIS_CHOOSES, "--dialect": _QGIS_CHOOSES,
     "--bbox": _QGIS_CHOOSES, "--if": _QGIS_CHOOSES, "--oo": _QGIS_CHOOSES, "--config": _QGIS_CHOOSES,
