@@ -3,7 +3,7 @@
 #include "follow/follow.h"
 
 #include "base/interrupt.h"
-#include "follow/distance.h"
+#include "follow/geometry_distance.h"
 #include "read/fields.h"
 
 #include <cpl_conv.h>
@@ -224,14 +224,14 @@ static bool attach(gis_follow *f, const names *list, size_t i, gis_error *error)
     return true;
 }
 
-bool gis_follow_attach(gis_follow *f, gis_progress *progress, gis_error *error)
+bool gis_follow_attach(gis_follow *follow, gis_progress *progress, gis_error *error)
 {
-    const size_t n = gis_source_count(f->input);
+    const size_t n = gis_source_count(follow->input);
     names list;
-    f->place = calloc(n + 1, sizeof *f->place);
-    bool ok = (f->place != NULL || gis_no_memory(error)) && find_names(f, &list, error);
+    follow->place = calloc(n + 1, sizeof *follow->place);
+    bool ok = (follow->place != NULL || gis_no_memory(error)) && find_names(follow, &list, error);
     for (size_t i = 0; ok && i < n; i++)
-        ok = gis_go_on(error) && gis_progress_call((double)i / (double)n, progress) && attach(f, &list, i, error);
-    if (f->place) clear_names(&list);
+        ok = gis_go_on(error) && gis_progress_call((double)i / (double)n, progress) && attach(follow, &list, i, error);
+    if (follow->place) clear_names(&list);
     return ok;
 }

@@ -29,7 +29,7 @@ static bool look_for_holder(void *user, size_t i)
     return h->side < 1;
 }
 
-/* x + d = *sum + *rest exactly, unless it overflows ([Knuth, TAOCP 2, 4.2.2], two-sum). */
+/* x + d = *sum + *rest exactly, unless it overflows (Knuth's two-sum). */
 static void add_exactly(double x, double d, double *sum, double *rest)
 {
     const double s = x + d, b = s - x;
@@ -44,8 +44,8 @@ static double step_by(double x, int steps)
     return x;
 }
 
-/* Sets `to` to the nearest doubles about `sum` + `rest` at which the shape holds a point at least as `side`. Differences
- * of close doubles are exact. Returns false, and leaves `to`, if there are none among those that are tried. */
+/* Sets `to` to the nearest doubles about `sum` + `rest` that the shape holds at least as far inside as `side` says.
+ * Differences of close doubles are exact. Returns false, and leaves `to`, if none of those that are tried are so. */
 static bool find_inside(const sunder_shape *shape, int side, const double sum[2], const double rest[2], double to[2])
 {
     double least = INFINITY;

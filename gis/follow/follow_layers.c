@@ -113,7 +113,7 @@ static bool write_feature(gis_sink_layer *layer, gis_follow *f, size_t i, trips 
     return gis_sink_write(layer, gis_source_feature(f->input, i), geometry, values, error);
 }
 
-bool gis_follow_write(gis_sink *sink, gis_follow *f, gis_error *error)
+bool gis_follow_write(gis_sink *sink, gis_follow *follow, gis_error *error)
 {
     static const gis_field fields[] = {{"sunder_dx", OFTReal, 0},
                                        {"sunder_dy", OFTReal, 0},
@@ -128,9 +128,9 @@ bool gis_follow_write(gis_sink *sink, gis_follow *f, gis_error *error)
     gis_sink_layer *layer;
     trips all = {0};
     bool ok = gis_sink_add(sink, &request, &layer, error);
-    for (size_t i = 0; ok && i < gis_source_count(f->input); i++)
-        ok = gis_go_on(error) && write_feature(layer, f, i, &all, error);
-    if (ok) f->torn = count_torn(&all);
+    for (size_t i = 0; ok && i < gis_source_count(follow->input); i++)
+        ok = gis_go_on(error) && write_feature(layer, follow, i, &all, error);
+    if (ok) follow->torn = count_torn(&all);
     free(all.list);
     return ok;
 }

@@ -49,8 +49,8 @@ bool gis_geometry_is_finite(OGRGeometryH geometry);
 bool gis_geometry_translate(OGRGeometryH geometry, double dx, double dy, gis_error *error);
 
 /* Changes every vertex and control point in place: calls change(user, xy), which sets its new X and Y, for each in
- * order; equal vertices have to become equal ones, so that rings stay closed. All else stays as for a translation. Stops
- * at a failure of `change`. */
+ * order; equal vertices have to become equal ones, so that rings stay closed. All else stays as for a translation.
+ * Stops at a failure of `change`. */
 typedef bool gis_vertex_change(void *user, double xy[2], gis_error *error);
 bool gis_geometry_change(OGRGeometryH geometry, gis_vertex_change *change, void *user, gis_error *error);
 

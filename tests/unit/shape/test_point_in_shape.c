@@ -1,5 +1,5 @@
-/* shape/point_in_shape: points about the rings of random shapes, valid and invalid, are located as by the even-odd rule in
- * rationals, for a ray in another direction. */
+/* shape/point_in_shape: points about the rings of random shapes, valid and invalid, are located as by the even-odd rule
+ * in rationals, for a ray in another direction. */
 #include "generate.h"
 
 #include <gmp.h>

@@ -1,6 +1,6 @@
-/* distance.h: how far a geometry is from a shape, or from points, in doubles. */
-#ifndef GIS_FOLLOW_DISTANCE_H
-#define GIS_FOLLOW_DISTANCE_H
+/* geometry_distance.h: how far a geometry is from a shape, or from points, in doubles. */
+#ifndef GIS_FOLLOW_GEOMETRY_DISTANCE_H
+#define GIS_FOLLOW_GEOMETRY_DISTANCE_H
 
 #include <ogr_api.h>
 

@@ -1,6 +1,6 @@
-/* distance.c: see distance.h. The squared distance of two segments is 0 if they cross, else the least of the distances
- * of an end from the other segment. Points are segments of length 0. */
-#include "follow/distance.h"
+/* geometry_distance.c: distances by segments. The distance of two segments is 0 if they cross, else the least distance of
+ * an end from the other segment. Points are segments of length 0. */
+#include "follow/geometry_distance.h"
 
 #include <math.h>
 
