@@ -1,5 +1,5 @@
-/* geometry_distance.c: distances by segments. The distance of two segments is 0 if they cross, else the least distance of
- * an end from the other segment. Points are segments of length 0. */
+/* geometry_distance.c: distances by segments. The distance of two segments is 0 if they cross, else the least distance
+ * of an end from the other segment. Points are segments of length 0. */
 #include "follow/geometry_distance.h"
 
 #include <math.h>
