@@ -1,5 +1,5 @@
 /* point_in_shape.c: is a point inside a shape, on its boundary, or outside? */
-#include "sunder.h"
+#include "sunder_shape.h"
 
 /* The position of a point relative to one polygon, as of sunder_shape_locate(). By the even-odd rule: the ray from the
  * point in the direction of x crosses an edge whose ends lie on different sides of the ray's line if the point lies on
