@@ -52,40 +52,22 @@ static void print_own(unsigned command)
     }
 }
 
-/* The length of the options of a group on one line. */
-static size_t packed_length(unsigned command, gis_option_group group)
-{
-    size_t length = 0;
-    for (int i = 0; i < OPT_N; i++) {
-        const gis_option *option = &gis_option_table[i];
-        char name[256];
-        if (option->group == group && (option->commands & command))
-            length += describe_option(option, true, name, sizeof name) + (length ? 2 : 0);
-    }
-    return length;
-}
-
-/* Prints the options of a group below its title, or behind it if one line has room for all. */
+/* Prints the title of a group and its options, on as many lines as needed. */
 static void print_packed(unsigned command, gis_option_group group)
 {
-    const bool fits = strlen(group_titles[group]) + 1 + packed_length(command, group) <= (size_t)SCREEN_WIDTH;
-    size_t column = 0;
-    printf("%s%c", group_titles[group], fits ? ' ' : '\n');
+    size_t column = (size_t)printf("%s", group_titles[group]);
+    const char *joint = " ";
     for (int i = 0; i < OPT_N; i++) {
         const gis_option *option = &gis_option_table[i];
         if (option->group != group || !(option->commands & command)) continue;
         char name[256];
         size_t length = describe_option(option, true, name, sizeof name);
-        if (column && !fits && column + 2 + length > (size_t)SCREEN_WIDTH) {
-            printf(",\n");
+        if (column + strlen(joint) + length > (size_t)SCREEN_WIDTH) {
+            joint = *joint == ',' ? ",\n  " : "\n  ";
             column = 0;
-        } else if (column) {
-            printf(", ");
-            column += 2;
         }
-        if (!column && !fits) column = (size_t)printf("  ");
-        printf("%s", name);
-        column += length;
+        column += (size_t)printf("%s%s", joint, name);
+        joint = ", ";
     }
     printf("\n");
 }

@@ -286,7 +286,7 @@ static sunder_status ease_round(sunder_i_solver *s, bool *more, sunder_error *er
     if (!status) status = ease_clusters(s, has_to_ease, &again, err);
     for (int k = 0; k < MOST_PINNINGS && again && !status; k++) status = ease_clusters(s, has_pinned, &again, err);
     for (size_t b = 0; b < s->model.bodies; b++) s->model.body[b].pinned = false;
-    if (!status && !sunder_i_has_slack(&s->model)) status = try_starts(s, err);
+    if (!status && s->model.rules.effort > 0 && !sunder_i_has_slack(&s->model)) status = try_starts(s, err);
     if (!status) status = join_guests(s, more, err);
     if (!status && sunder_i_has_slack(&s->model)) status = join_short_pairs(s, false, &apart, err);
     *more = *more || apart;

@@ -1,4 +1,4 @@
-/* Features with many levels, through the public functions; and levels that are refused. */
+/* displacement/hide/hiding: features with many levels, through the public functions; and levels that are refused. */
 #include "sunder_hiding.h"
 
 #include "scene.h"
