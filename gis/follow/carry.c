@@ -45,7 +45,7 @@ static double step_by(double x, int steps)
 }
 
 /* Sets `to` to the nearest doubles about `sum` + `rest` that the shape holds at least as far inside as `side` says.
- * Differences of close doubles are exact. Returns false, and leaves `to`, if none of those that are tried are so. */
+ * Differences of close doubles are exact. Returns false, and leaves `to`, if it tries no such doubles. */
 static bool find_inside(const sunder_shape *shape, int side, const double sum[2], const double rest[2], double to[2])
 {
     double least = INFINITY;
