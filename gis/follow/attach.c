@@ -18,7 +18,7 @@ typedef struct candidate {
     size_t target;   /* the member that held the first vertex: one that had it in its interior before others */
     size_t seen;     /* 1 + the last vertex that was held */
     size_t interior; /* the number of vertices that were in the interior of a member */
-    size_t last;     /* 1 + the last of these */
+    size_t last;     /* 1 + the last vertex in an interior */
 } candidate;
 
 typedef struct holders {

@@ -6,9 +6,9 @@
  * rows. No pair that is in conflict afterwards may be worse than before. Blocks, limits, rows and fixed features are
  * those of the layer before.
  *
- * A feature of the layer before may have smaller shapes (sunder_layer_set_levels()). If it is now a translate
- * of one of these, pairs are checked with that shape; blocks, limits, anchors and rows are still those of its shape as
- * given.
+ * A feature of the layer before may have smaller shapes (sunder_layer_set_levels()). If one of them, translated, is the
+ * shape of the feature now, pairs are checked with that shape. Blocks, limits, anchors and rows are always those of the
+ * shape as given.
  *
  * A feature that is ignored in the layer after alone is hidden: it owes nothing, and nothing is owed to it. It is
  * needless if it would be in no conflict where it stood, moved with its block. */

@@ -5,7 +5,7 @@
 
 #include "separation/separation.h"
 
-/* Sets *out to a shape of those pieces of a part of a barrier that have no area; NULL if there are none. */
+/* Sets *out to a shape made of the lines and points of a part of a barrier; NULL if the part has none. */
 static sunder_status lines_of_part(const sunder_i_barriers *barriers, uint32_t part, sunder_shape **out,
                                    sunder_error *err)
 {

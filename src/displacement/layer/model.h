@@ -203,9 +203,8 @@ struct sunder_i_model {
     size_t inclusions;
     sunder_i_inclusion *nested; /* pairs in conflict in which one feature lay in the other at the start; sorted */
     size_t nested_n;
-    sunder_i_id_pair
-        *crossed; /* pairs of a feature and the first part of a barrier, a line of which crosses it at home,
-                                * if these are kept (crossed_features.c); sorted */
+    sunder_i_id_pair *crossed; /* (feature, first part of a barrier) for each barrier whose line crosses the feature at
+                                * home, if such pairs are kept (crossed_features.c); sorted */
     size_t crossed_n;
     sunder_i_relaxations relaxations;
     sunder_i_id_pair *given_up; /* pairs of bodies for which no solution was found that resolves this pair as well as

@@ -86,8 +86,8 @@ const sunder_i_waiver *sunder_i_waiver_of(const sunder_i_model *model, const sun
 bool sunder_i_forbidden_init(sunder_i_forbidden *forbidden, const sunder_i_model *model, const sunder_i_waived *waived,
                              uint32_t p, uint32_t q, double reach);
 /* Lists the pieces of the forbidden sets of body p and n bodies q that do not move relative to each other. With
- * `prices` it also lists pieces of pairs whose shortfall has a price: of those that are left in conflict, and if the
- * full gap is greater than the least one, of all. At most about MOST_PIECES pieces are listed. */
+ * `prices` it also lists the pieces of pairs whose shortfall has a price: pairs left in conflict and, if the full gap
+ * is greater than the least one, all pairs. At most about MOST_PIECES pieces are listed. */
 bool sunder_i_forbidden_priced(sunder_i_forbidden *forbidden, const sunder_i_model *model,
                                const sunder_i_waived *waived, uint32_t p, const uint32_t *q, size_t n, double reach,
                                bool prices);
