@@ -44,7 +44,7 @@ drawn() {
 alike o.gpkg 99M --gap 3 --effort 0 --max-shift 2
 drawn o.gpkg 103M --gap 3 --effort 0 --max-shift 2
 alike o.gpkg 98.5M --gap 3 --effort 0.05
-alike o.gpkg 98M --gap 4 --effort 0 --no-blocks --allow-jumps --id-field id
+alike o.gpkg 98M --gap 2 --effort 0 --no-blocks --allow-jumps --id-field id
 drawn o.gpkg 103M --gap 0.5 --effort 0 --weight sqrt-area --fixed-where 'fid % 9 = 0' --ignore-where 'fid % 11 = 0'
 alike o.shp 99M --gap 3 --effort 0
 alike o.gpkg 98.5M --gap 3 --effort 0 --block-field blk
@@ -58,11 +58,11 @@ jq -e '.rows.rows > 50 and .displacement.cost_rows > 1' whole.json >/dev/null ||
 
 # Pairs that are eased.
 proof=()
-alike o.gpkg 99M --gap 4 --effort 0 --rows auto --max-shift 0.5 --ease 30
+alike o.gpkg 99M --gap 1.5 --effort 0 --rows auto --max-shift 0.3 --ease 30
 jq -e '.shortfall.pairs > 50' whole.json >/dev/null || fail "few are short: $(jq -c .shortfall whole.json)"
 
 # Pairs between a least gap and the gap.
-alike o.gpkg 99M --gap 4 --least-gap 1 --effort 0 --rows auto --max-shift 0.5
+alike o.gpkg 99M --gap 1.5 --least-gap 0.5 --effort 0 --rows auto --max-shift 0.3
 proof=(--proof at/proof.jsonl)
 jq -e '.shortfall.tight > 50' whole.json >/dev/null || fail "few are tight: $(jq -c .shortfall whole.json)"
 
@@ -94,10 +94,10 @@ PYTHON
 for name in roads meadows; do
     ogr2ogr -q -nln $name -a_srs EPSG:25832 $name.gpkg $name.geojson || fail "$name.gpkg is not made"
 done
-alike o.gpkg 99M --gap 3 --effort 0 --max-shift 4 --barrier roads.gpkg,width-field=w
-drawn o.gpkg 103M --gap 3 --effort 0 --max-shift 4 --barrier roads.gpkg,width=5,gap=0,side=no \
+alike o.gpkg 99M --gap 1 --effort 0 --max-shift 2 --barrier roads.gpkg,width-field=w
+drawn o.gpkg 103M --gap 1 --effort 0 --max-shift 2 --barrier roads.gpkg,width=5,gap=0,side=no \
     --barrier meadows.gpkg,gap=1 --barrier "roads.gpkg,where=w > 3" --id-field id
-alike o.gpkg 99M --gap 3 --effort 0 --rows auto --max-shift 4 --barrier roads.gpkg,width-field=w --barrier meadows.gpkg
+alike o.gpkg 99M --gap 1 --effort 0 --rows auto --max-shift 2 --barrier roads.gpkg,width-field=w --barrier meadows.gpkg
 alike o.gpkg 99M --gap 1 --effort 0 --max-shift 2 --barrier meadows.gpkg,as=boundary,gap=0 --touch-tolerance 0.01
 alike o.gpkg 99M --gap 1 --effort 0 --max-shift 2 --barrier "roads.gpkg,where=w > 60"
 
