@@ -19,7 +19,7 @@ NEARER = ["1e10", "1e11", "5e11", "1e12", "2e12", "5e12", "1e13", "1e14", "1e15"
 FARTHER = ["1e16", "1e17", "1e20", "1e30", "1e100", "1.7e308", "1.7976931348623157e308"]
 FIXED = ["--fixed-where", "kind = 'wild'"]
 # (seed, case, number of the kind) of layers in which houses beside a fixed feature cost more with its vertex beyond 1e8 than at 1e8
-AGAIN = [(4, 0, 3), (4, 1, 0), (2, 2, 1), (6, 0, 1), (9, 0, 3), (32, 0, 1), (37, 0, 1)]
+AGAIN = [(4, 0, 3), (4, 1, 0), (2, 2, 1), (6, 0, 1), (9, 0, 3), (32, 0, 1), (37, 0, 1), (121, 0, 3), (201, 0, 3), (102, 0, 1)]
 
 
 def polygon(points):
@@ -115,9 +115,9 @@ def wild_stays():
         return all(f["properties"]["sunder_len"] == 0 for f in json.load(f)["features"] if f["properties"]["kind"] == "wild")
 
 
-def demand(name, found, expected, stays=True):
+def demand(name, found, expected, stays=True, share=1e-6):
     more = found[0] - expected[0]
-    if more > 0 or (more == 0 and not found[1] <= expected[1] * (1 + 1e-6)) or not stays:
+    if more > 0 or (more == 0 and not found[1] <= expected[1] * (1 + share)) or not stays:
         sys.exit(f"seed {SEED}, {name}: conflicts and cost {found}, beside fixed ones {expected}; stays: {stays}")
 
 
@@ -141,7 +141,9 @@ def main():
                 demand(f"case {case}, one side, {value}, {extra}", found, expected, value not in FARTHER or wild_stays())
     for drawn in AGAIN:
         rows, value, extra = beside_fixed(*drawn)
-        demand(f"{drawn}, fixed, {value}, {extra}", separate(rows, value, extra), separate(rows, "1e8", extra))
+        # As the corrupt vertex goes from 1e8 to infinity its edges turn by up to 150 / 1e8, so that they pass houses that are
+        # 100 away up to 1.5e-4 beside where they passed them. Moves of some metres cost up to 1e-4 more then.
+        demand(f"{drawn}, fixed, {value}, {extra}", separate(rows, value, extra), separate(rows, "1e8", extra), share=1e-4)
 
 
 main()

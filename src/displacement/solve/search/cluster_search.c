@@ -8,16 +8,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The mean size of the bodies that are not parts of barriers. (The length of a barrier says nothing about how far a
- * body has to move.) */
+/* The mean size of the bodies that may move. The size of others says nothing about how far a body has to move: a
+ * barrier may be long, and a fixed feature may have one corrupt vertex a thousand kilometres away. */
 static double mean_extent(const sunder_i_model *model, const uint32_t *body, size_t n)
 {
     size_t counted = 0;
     double extent = 0;
-    for (size_t k = 0; k < n; k++) counted += !sunder_i_is_barrier_body(model, &model->body[body[k]]);
+    for (size_t k = 0; k < n; k++) counted += !model->body[body[k]].fixed;
     for (size_t k = 0; k < n; k++) {
         const sunder_i_body *b = &model->body[body[k]];
-        if (b->pieces && !sunder_i_is_barrier_body(model, b))
+        if (b->pieces && !b->fixed)
             extent += sunder_i_max(b->box[2] - b->box[0], b->box[3] - b->box[1]) / (double)counted;
     }
     return extent;

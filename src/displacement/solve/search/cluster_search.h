@@ -95,7 +95,7 @@ typedef struct sunder_i_search {
     sunder_i_measures measures;      /* violations of pairs of bodies */
     sunder_i_obstacle_edge *shifted; /* scratch: edges of an obstacle that no cache keeps */
     size_t shifted_capacity;
-    double extent;           /* the mean size of the bodies, parts of barriers left out */
+    double extent;           /* the mean size of the bodies that may move */
     double settled;          /* a round that gains a smaller share of the cost is the last one */
     uint64_t steps, effort;  /* constraints examined so far; the work at which the search for better sides ends */
     uint64_t patience;       /* a descent gives up when the work reaches this ... */
