@@ -57,6 +57,36 @@ typedef struct sunder_level {
 SUNDER_EXPERIMENTAL sunder_status sunder_layer_set_levels(sunder_layer *layer, const sunder_level *level,
                                                           const size_t *end, sunder_error *err);
 
+/* How features are made larger. */
+typedef struct sunder_enlarging {
+    double width;      /* above 0: a disc of this diameter fits into each part of a block, or of a feature in none */
+    const bool *rigid; /* NULL, or [n] features whose blocks keep their shapes */
+} sunder_enlarging;
+
+/* Makes blocks larger that are too small. A part of a block, which is one polygon or several that are no farther apart
+ * than the touch tolerance, is stretched along the box of least width around it and across it, up to the least size,
+ * and then in both directions alike until the disc fits in, which is decided up to a thousandth of its width. Members
+ * share the vertices that they shared. The larger shapes are meant for the features of another layer, with the blocks
+ * of this one (sunder_layer_options.no_blocks), and with its shapes as originals (sunder_layer_set_originals()).
+ *
+ * options  decide which features are blocks
+ * shape    [n] becomes the larger shape of each feature that grows, a new one that the caller frees; NULL for others
+ * block    [n] becomes the block of each feature: the number of its first feature; -1 for a feature in none
+ *
+ * Blocks with a member that is ignored or rigid, or that has corners that are not doubles, keep their shapes. Fails
+ * with SUNDER_ENOMEM or SUNDER_ECANCEL, with SUNDER_EARG if the least size is not above 0 and finite, and with
+ * SUNDER_ERANGE if a shape would leave the range of doubles; all shapes are then NULL. */
+SUNDER_EXPERIMENTAL sunder_status sunder_layer_enlarge(const sunder_layer *layer, const sunder_layer_options *options,
+                                                       const sunder_enlarging *enlarging, sunder_shape **shape,
+                                                       int64_t *block, sunder_error *err);
+
+/* Says that features of the layer were made larger. shape: [n] the shapes that they had before, NULL for a feature that
+ * has the same; copied, but the shapes remain the caller's and must outlive the layer. NULL: none was made larger.
+ * These shapes decide on which sides of barriers features stand, and which a barrier crosses. Fails with
+ * SUNDER_ENOMEM. */
+SUNDER_EXPERIMENTAL sunder_status sunder_layer_set_originals(sunder_layer *layer, const sunder_shape *const *shape,
+                                                             sunder_error *err);
+
 /* How features are cut back at barriers. */
 typedef struct sunder_trimming {
     double keep;  /* the least share of its area that a feature keeps, from 0 to 1 */

@@ -75,18 +75,20 @@ static void draw_link(const comparison *c, size_t a, const double s[2], sunder_c
     for (int k = 0; k < 2; k++) out->to[k] = out->from[k] + (c->move[2 * a + (size_t)k] - s[k]);
 }
 
-/* Is the feature a translate? Its smaller shape is compared as a set, since its vertices were never given. */
-static bool is_move(const sunder_shape *was, const sunder_shape *is, bool smaller, double t[2])
+/* Is the feature f a translate of this shape? A smaller or larger shape than the one that was read is compared as a
+ * set, since its vertices were never given. */
+static bool is_move(const comparison *c, size_t f, const sunder_shape *was, const sunder_shape *is, double t[2])
 {
-    return smaller ? sunder_i_move_between_sets(was, is, t) : sunder_i_move_between(was, is, t);
+    const bool read = was == sunder_i_original_shape(c->before, f);
+    return read ? sunder_i_move_between(was, is, t) : sunder_i_move_between_sets(was, is, t);
 }
 
 static sunder_status check_feature(comparison *c, uint32_t f, sunder_error *err)
 {
-    const sunder_shape *given = c->before->shape[f], *was = c->was[f], *is = c->after->shape[f];
+    const sunder_shape *was = c->was[f], *is = c->after->shape[f];
     const double none[2] = {0, 0}, *t = c->move + 2 * (size_t)f;
     const bool there = was && !sunder_shape_is_empty(was), still = is && !sunder_shape_is_empty(is);
-    c->translated[f] = there == still && (!there || is_move(was, is, was != given, c->move + 2 * (size_t)f));
+    c->translated[f] = there == still && (!there || is_move(c, f, was, is, c->move + 2 * (size_t)f));
     /* If the geometry was repaired on input, the shape as given is not the one written; the move is then not known. */
     if (!c->translated[f] && there && still && sunder_shape_repaired(was)) return SUNDER_OK;
     if (!c->translated[f])
@@ -175,8 +177,8 @@ static sunder_status find_levels(comparison *c, sunder_error *err)
         const sunder_level *smaller = sunder_i_levels_of(c->before, f, &n);
         double t[2];
         c->was[f] = given;
-        for (size_t k = 0; k < n && is && c->was[f] == given && !sunder_i_move_between(given, is, t); k++)
-            if (sunder_i_move_between_sets(smaller[k].shape, is, t)) c->was[f] = smaller[k].shape;
+        for (size_t k = 0; k < n && is && c->was[f] == given && !is_move(c, f, given, is, t); k++)
+            if (is_move(c, f, smaller[k].shape, is, t)) c->was[f] = smaller[k].shape;
         c->any_lowered = c->any_lowered || c->was[f] != given;
     }
     c->lowered = *c->before;

@@ -1,6 +1,7 @@
 /* Features that a barrier's line crosses at home, such as a house above a passage. If the layer keeps them, such a pair
  * owes no distance: it may not stand worse than at home, like a pair that is left in conflict. Lines and points of a
- * barrier count, and areas do not. What a line meets is the interior of the shape as given. */
+ * barrier count, and areas do not. What a line meets is the interior of the shape as given, before it was
+ * made larger. */
 #include "displacement/layer/model.h"
 
 #include "separation/separation.h"
@@ -21,6 +22,21 @@ static sunder_status lines_of_part(const sunder_i_barriers *barriers, uint32_t p
     return status;
 }
 
+/* Sets *crosses to whether the line meets the interior of the feature. */
+static sunder_status meets_interior(const sunder_i_model *model, uint32_t f, const sunder_shape *line, bool *crosses,
+                                    sunder_error *err)
+{
+    const sunder_i_translate home = sunder_i_at_home(model, f);
+    const sunder_shape *original = sunder_i_original_shape(model->layer->given, model->layer->number[f]);
+    sunder_i_interior_cover cover = {0};
+    if (original == sunder_i_given_shape(model, f))
+        return sunder_i_overlap(line, NULL, home.interior_cover ? home.interior_cover : home.shape, NULL, crosses, err);
+    sunder_status status = sunder_i_interior_cover_make(original, &cover, err);
+    if (!status) status = sunder_i_overlap(line, NULL, cover.shape ? cover.shape : original, NULL, crosses, err);
+    sunder_i_interior_cover_free(&cover);
+    return status;
+}
+
 /* Sets *crosses to whether a line or point of a part of a barrier meets the interior of the feature. The relation is
  * that of all pieces of the part, so it answers unless some have an area. */
 static sunder_status crosses_feature(const sunder_i_model *model, const sunder_i_relation *r, bool *crosses,
@@ -28,13 +44,10 @@ static sunder_status crosses_feature(const sunder_i_model *model, const sunder_i
 {
     *crosses = r->overlap && sunder_i_is_barrier(model, r->b) && sunder_i_thing_shape(model, r->b)->flat;
     if (!*crosses) return SUNDER_OK;
-    const sunder_i_translate home = sunder_i_at_home(model, r->a);
     sunder_shape *line;
     sunder_status status = lines_of_part(model->barriers, r->b - (uint32_t)model->features, &line, err);
     *crosses = line != NULL;
-    if (!status && line)
-        status =
-            sunder_i_overlap(line, NULL, home.interior_cover ? home.interior_cover : home.shape, NULL, crosses, err);
+    if (!status && line) status = meets_interior(model, r->a, line, crosses, err);
     sunder_shape_free(line);
     return status;
 }

@@ -117,6 +117,15 @@ sunder_status sunder_layer_set_side_anchors(sunder_layer *layer, const double *x
     return SUNDER_OK;
 }
 
+sunder_status sunder_layer_set_originals(sunder_layer *layer, const sunder_shape *const *shape, sunder_error *err)
+{
+    void *copy;
+    if (!copy_items((const void *)shape, layer->n, sizeof *shape, &copy)) return sunder_i_failure_cause(err);
+    sunder_i_free((void *)layer->original);
+    layer->original = copy;
+    return SUNDER_OK;
+}
+
 sunder_status sunder_layer_set_rows(sunder_layer *layer, const int64_t *row, sunder_error *err)
 {
     void *copy;
@@ -196,5 +205,6 @@ void sunder_layer_free(sunder_layer *layer)
 {
     if (!layer) return;
     sunder_i_free_all((void *)layer->shape, layer->demand, layer->demands, layer->barrier, layer->side_anchor,
-                      layer->row, layer->hiding, layer->level, layer->level_end, (void *)layer->at_level, layer);
+                      layer->row, layer->hiding, layer->level, layer->level_end, (void *)layer->at_level,
+                      (void *)layer->original, layer);
 }

@@ -3,8 +3,8 @@
 #ifndef SUNDER_I_LAYER_H
 #define SUNDER_I_LAYER_H
 
-#include "sunder_layer.h"
 #include "sunder_hiding.h"
+#include "sunder_layer.h"
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -13,9 +13,11 @@
 /* A layer. The demands on a feature are its members other than the shape. Most features of a layer have the same
  * demands, so they are stored once for each run of consecutive features with equal demands. */
 struct sunder_layer {
-    const sunder_shape **shape; /* [n] */
-    uint32_t *demand;           /* [n] the index of each feature's demands in `demands`; NULL: all have the first */
-    sunder_feature *demands;    /* features without their shapes, one for each run */
+    const sunder_shape **shape;    /* [n] */
+    uint32_t *demand;              /* [n] the index of each feature's demands in `demands`; NULL: all have the first */
+    sunder_feature *demands;       /* features without their shapes, one for each run */
+    const sunder_shape **original; /* [n] the shapes of features before they were made larger, NULL for those that were
+                                    * not; NULL: none was */
     size_t n;
     sunder_barrier *barrier;
     size_t barriers;
@@ -40,6 +42,12 @@ struct sunder_layer {
 static inline const sunder_feature *sunder_i_demands(const sunder_layer *given, size_t k)
 {
     return &given->demands[given->demand ? given->demand[k] : 0];
+}
+
+/* The shape of feature k before it was made larger. */
+static inline const sunder_shape *sunder_i_original_shape(const sunder_layer *given, size_t k)
+{
+    return given->original && given->original[k] ? given->original[k] : given->shape[k];
 }
 
 /* Returns the smaller shapes that feature k may have, from the largest on, and sets *n to their number. */

@@ -164,7 +164,7 @@ static sunder_status find_some_anchors(void *context, size_t begin, size_t end, 
     const sunder_i_side_scope scope = {model->rules.tolerance, find_more, &around};
     sunder_status status = SUNDER_OK;
     for (size_t f = begin; f < end && !status; f++) {
-        const sunder_shape *shape = sunder_i_given_shape(model, f);
+        const sunder_shape *shape = sunder_i_original_shape(model->layer->given, model->layer->number[f]);
         const double *given = given_anchor(model, f);
         if (!model->present[f]) continue;
         if (given) {

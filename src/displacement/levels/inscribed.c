@@ -1,4 +1,4 @@
-/* The largest disc in a shape, in doubles.
+/* The largest disc in a shape, or in several together, in doubles.
  *
  * The distance f(x) from a point inside of the shape to its boundary, negative outside of it, changes by no more than
  * the point moves. So in a square of half diagonal r around x it is at most f(x) + r. Squares are divided into four,
@@ -10,7 +10,7 @@
 
 #include <math.h>
 
-/* Squares are divided this many times at most: the radius is found up to 2^-DIVISIONS of the box. */
+/* Squares are divided this many times at most, which is enough for SUNDER_I_DISC_PRECISION. */
 enum { DIVISIONS = 10 };
 #define MOST_SQUARES 65536u
 
@@ -24,28 +24,58 @@ typedef struct squares {
     size_t n, room;
 } squares;
 
-/* The distance from p to the boundary, negative outside of the shape by the even-odd rule. */
-static double distance_inside(const sunder_shape *shape, const double p[2])
+/* The distance from p to a segment. */
+static double distance_to(const double p[2], const double *segment)
 {
-    double least = INFINITY;
-    bool inside = false;
-    for (uint32_t v = 0; v < shape->vertices; v++) {
-        const double *a = shape->xy + 2 * (size_t)v, *b = shape->xy + 2 * (size_t)shape->form->cleaned.next[v];
-        const double u[2] = {b[0] - a[0], b[1] - a[1]}, w[2] = {p[0] - a[0], p[1] - a[1]};
-        const double t = (u[0] * w[0] + u[1] * w[1]) / (u[0] * u[0] + u[1] * u[1]);
-        const double on = sunder_i_max(0, sunder_i_min(1, t)), off[2] = {w[0] - on * u[0], w[1] - on * u[1]};
-        least = sunder_i_min(least, off[0] * off[0] + off[1] * off[1]);
-        if ((a[1] > p[1]) != (b[1] > p[1]) && p[0] < a[0] + u[0] * (w[1] / u[1])) inside = !inside;
-    }
-    return inside ? sqrt(least) : -sqrt(least);
+    const double *a = segment, *b = segment + 2;
+    const double u[2] = {b[0] - a[0], b[1] - a[1]}, w[2] = {p[0] - a[0], p[1] - a[1]};
+    const double t = (u[0] * w[0] + u[1] * w[1]) / (u[0] * u[0] + u[1] * u[1]);
+    const double on = sunder_i_max(0, sunder_i_min(1, t)), off[2] = {w[0] - on * u[0], w[1] - on * u[1]};
+    return off[0] * off[0] + off[1] * off[1];
 }
 
-static bool add_square(squares *list, const sunder_shape *shape, double x, double y)
+static double distance_to_nearest(const double p[2], const double *segment, size_t n)
+{
+    double least = INFINITY;
+    for (size_t k = 0; k < n; k++) least = sunder_i_min(least, distance_to(p, segment + 4 * k));
+    return sqrt(least);
+}
+
+static bool is_within(const double p[2], const double *edge, size_t n)
+{
+    bool inside = false;
+    for (size_t k = 0; k < n; k++) {
+        const double *a = edge + 4 * k, *b = a + 2;
+        if ((a[1] > p[1]) != (b[1] > p[1]) && p[0] < a[0] + (b[0] - a[0]) * ((p[1] - a[1]) / (b[1] - a[1])))
+            inside = !inside;
+    }
+    return inside;
+}
+
+/* Is p inside of a member, or in a crack between two? */
+static bool is_in_room(const sunder_i_disc_room *room, const double p[2])
+{
+    size_t near = 0;
+    for (size_t m = 0, first = 0; m < room->members; first = room->end[m++])
+        if (is_within(p, room->edge + 4 * first, room->end[m] - first)) return true;
+    for (size_t m = 0, first = 0; m < room->members && room->members > 1 && near < 2; first = room->end[m++])
+        near += distance_to_nearest(p, room->edge + 4 * first, room->end[m] - first) <= room->crack;
+    return near > 1;
+}
+
+/* The distance from p to the walls, negative outside of the room. */
+static double distance_inside(const sunder_i_disc_room *room, const double p[2])
+{
+    const double distance = distance_to_nearest(p, room->wall, room->walls);
+    return is_in_room(room, p) ? distance : -distance;
+}
+
+static bool add_square(squares *list, const sunder_i_disc_room *room, double x, double y)
 {
     if (!sunder_i_reserve(&list->item, &list->room, list->n + 1, sizeof *list->item)) return false;
     square *s = &list->item[list->n++];
     *s = (square){.at = {x, y}};
-    s->distance = distance_inside(shape, s->at);
+    s->distance = distance_inside(room, s->at);
     return true;
 }
 
@@ -56,8 +86,8 @@ static void take_best(const squares *list, square *best)
 }
 
 /* Divides those squares of half side h that may hold a point better than `best` by more than `enough`. */
-static bool divide_squares(const squares *from, const sunder_shape *shape, double h, const square *best, double enough,
-                           squares *to)
+static bool divide_squares(const squares *from, const sunder_i_disc_room *room, double h, const square *best,
+                           double enough, squares *to)
 {
     bool ok = true;
     to->n = 0;
@@ -65,33 +95,52 @@ static bool divide_squares(const squares *from, const sunder_shape *shape, doubl
         const square *s = &from->item[k];
         if (s->distance + h * sqrt(2) <= best->distance + enough) continue;
         for (int q = 0; q < 4 && ok; q++)
-            ok = add_square(to, shape, s->at[0] + (q & 1 ? h / 2 : -h / 2), s->at[1] + (q & 2 ? h / 2 : -h / 2));
+            ok = add_square(to, room, s->at[0] + (q & 1 ? h / 2 : -h / 2), s->at[1] + (q & 2 ? h / 2 : -h / 2));
     }
     return ok;
 }
 
-sunder_status sunder_shape_largest_disc(const sunder_shape *shape, double centre[2], double *radius, sunder_error *err)
+/* The box around all edges. */
+static void box_of(const sunder_i_disc_room *room, double box[4])
+{
+    sunder_i_box_clear(box);
+    for (size_t k = 0; k < 2 * room->end[room->members - 1]; k++) sunder_i_box_include(box, room->edge + 2 * k);
+}
+
+bool sunder_i_largest_disc(const sunder_i_disc_room *room, double centre[2], double *radius)
 {
     squares list[2] = {{0}, {0}};
     double box[4];
-    centre[0] = centre[1] = *radius = 0;
-    if (!shape || sunder_shape_is_empty(shape)) return SUNDER_OK;
-    sunder_shape_box(shape, box);
+    box_of(room, box);
     const double w = box[2] - box[0], d = box[3] - box[1], size = sunder_i_min(w, d);
     const size_t nx = (size_t)ceil(sunder_i_min(w / size, 256)), ny = (size_t)ceil(sunder_i_min(d / size, 256));
     double h = sunder_i_max(w / (double)nx, d / (double)ny) / 2;
     square best = {.distance = -INFINITY};
     bool ok = true;
     for (size_t k = 0; k < nx * ny && ok; k++)
-        ok = add_square(&list[0], shape, box[0] + h * (double)(2 * (k % nx) + 1),
+        ok = add_square(&list[0], room, box[0] + h * (double)(2 * (k % nx) + 1),
                         box[1] + h * (double)(2 * (k / nx) + 1));
     for (int k = 0; ok && list[k & 1].n && k < DIVISIONS && list[k & 1].n < MOST_SQUARES; k++, h /= 2) {
         take_best(&list[k & 1], &best);
-        ok = divide_squares(&list[k & 1], shape, h, &best, size * ldexp(1, -DIVISIONS), &list[!(k & 1)]);
+        ok = divide_squares(&list[k & 1], room, h, &best, size * SUNDER_I_DISC_PRECISION, &list[!(k & 1)]);
     }
     for (int k = 0; k < 2 && ok; k++) take_best(&list[k], &best);
     for (int c = 0; c < 2 && ok; c++) centre[c] = best.at[c];
     if (ok) *radius = sunder_i_max(0, best.distance);
     sunder_i_free_all(list[0].item, list[1].item);
+    return ok;
+}
+
+sunder_status sunder_shape_largest_disc(const sunder_shape *shape, double centre[2], double *radius, sunder_error *err)
+{
+    centre[0] = centre[1] = *radius = 0;
+    if (!shape || sunder_shape_is_empty(shape)) return SUNDER_OK;
+    const size_t edges = shape->vertices;
+    double *edge = sunder_i_alloc(4 * edges, sizeof *edge);
+    if (!edge) return sunder_i_failure_cause(err);
+    for (uint32_t v = 0; v < shape->vertices; v++) sunder_i_edge_of(shape, v, edge + 4 * (size_t)v);
+    const sunder_i_disc_room room = {.wall = edge, .edge = edge, .end = &edges, .walls = edges, .members = 1};
+    const bool ok = sunder_i_largest_disc(&room, centre, radius);
+    sunder_i_free(edge);
     return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }

@@ -28,6 +28,23 @@ void sunder_i_main_direction(const sunder_shape *shape, double u[2])
     }
 }
 
+sunder_status sunder_i_shape_with_corners(const sunder_shape *shape, const double *xy, sunder_shape **out,
+                                          sunder_error *err)
+{
+    const sunder_i_cleaned *c = &shape->form->cleaned;
+    size_t *end = sunder_i_alloc((size_t)c->rings + c->polygons, sizeof *end);
+    sunder_error invalid;
+    *out = NULL;
+    if (!end) return sunder_i_failure_cause(err);
+    for (uint32_t k = 0; k < c->rings; k++) end[k] = c->ring_end[k];
+    for (uint32_t k = 0; k < c->polygons; k++) end[c->rings + k] = c->poly_end[k];
+    sunder_status status =
+        sunder_shape_from_rings(xy, end, end + c->rings, c->polygons, SUNDER_VALIDITY_STRICT, out, &invalid);
+    sunder_i_free(end);
+    if (status == SUNDER_EINVALID) return SUNDER_OK;
+    return status ? sunder_i_failure_cause(err) : SUNDER_OK;
+}
+
 bool sunder_i_level_has_shape(const sunder_layer *layer, size_t f)
 {
     const sunder_shape *shape = layer->shape[f];

@@ -22,22 +22,12 @@ typedef struct scaler {
 static sunder_status scale_shape(const sunder_shape *shape, const double about[2], double factor, sunder_shape **out,
                                  sunder_error *err)
 {
-    const sunder_i_cleaned *c = &shape->form->cleaned;
     double *xy = sunder_i_alloc(2 * (size_t)shape->vertices, sizeof *xy);
-    size_t *end = sunder_i_alloc((size_t)c->rings + c->polygons, sizeof *end);
-    sunder_status status = xy && end ? SUNDER_OK : sunder_i_failure_cause(err);
-    *out = NULL;
-    if (!status) {
-        sunder_error invalid;
-        for (size_t i = 0; i < 2 * (size_t)shape->vertices; i++)
-            xy[i] = about[i & 1] + factor * (shape->xy[i] - about[i & 1]);
-        for (uint32_t k = 0; k < c->rings; k++) end[k] = c->ring_end[k];
-        for (uint32_t k = 0; k < c->polygons; k++) end[c->rings + k] = c->poly_end[k];
-        status = sunder_shape_from_rings(xy, end, end + c->rings, c->polygons, SUNDER_VALIDITY_STRICT, out, &invalid);
-        if (status == SUNDER_EINVALID) status = SUNDER_OK;
-        if (status) status = sunder_i_failure_cause(err);
-    }
-    sunder_i_free_all(xy, end);
+    if (!xy) return sunder_i_failure_cause(err);
+    for (size_t i = 0; i < 2 * (size_t)shape->vertices; i++)
+        xy[i] = about[i & 1] + factor * (shape->xy[i] - about[i & 1]);
+    const sunder_status status = sunder_i_shape_with_corners(shape, xy, out, err);
+    sunder_i_free(xy);
     return status;
 }
 

@@ -161,7 +161,8 @@ static sunder_status trim_feature(const trimmer *t, zones *z, size_t f, sunder_e
     if (!list_pieces(t, z, box, margin)) return sunder_i_failure_cause(err);
     if (z->near.n == 0) return SUNDER_OK;
     sunder_status status = SUNDER_OK;
-    if (t->layer->crossed != SUNDER_CROSSED_TRIM) status = list_crossed(t, z, shape, err);
+    if (t->layer->crossed != SUNDER_CROSSED_TRIM)
+        status = list_crossed(t, z, sunder_i_original_shape(t->layer, f), err);
     if (status || (t->layer->crossed == SUNDER_CROSSED_HIDE && z->crossed.n)) return status;
     if (!add_zones(t, z, box, margin)) return sunder_i_failure_cause(err);
     if (z->cuts.n == 0) return SUNDER_OK;
