@@ -5,6 +5,7 @@
 #include "commands/commands.h"
 #include "commands/progress_shares.h"
 #include "commands/resolve.h"
+#include "layer/levels.h"
 #include "layer/moves.h"
 #include "read/source_files.h"
 
@@ -134,7 +135,7 @@ static bool print_lines(const check_run *run, gis_error *error)
 static bool is_asked_about(const gis_moves *moves, sunder_conflict_kind kind)
 {
     if (kind == SUNDER_CONFLICT_NEEDLESS) return moves->hidden;
-    if (kind == SUNDER_CONFLICT_ALTERED) return moves->levels.rungs > 0;
+    if (kind == SUNDER_CONFLICT_ALTERED) return gis_levels_asked(&moves->original.request->rules);
     return kind != SUNDER_CONFLICT_ROW || moves->original.request->rules.core.rows;
 }
 

@@ -170,7 +170,7 @@ static bool resolve_crossed(const gis_options *options, gis_layer_rules *out, gi
 {
     unsigned crossed = SUNDER_CROSSED_HIDE;
     if (!out->hide && !options->given[OPT_TRIM] && !options->given[OPT_INSET] && !options->given[OPT_SYMBOL_SIZE] &&
-        !out->hidden_field)
+        !options->given[OPT_ENLARGE] && !out->hidden_field)
         return true;
     if (!resolve_choice(options, OPT_CROSSED, crossed_word, &crossed, error)) return false;
     out->crossed = (sunder_crossed)crossed;
@@ -190,19 +190,26 @@ static bool resolve_room(const gis_options *options, gis_layer_rules *out, gis_e
     out->trim_keep = options->given[OPT_TRIM_KEEP] ? options->number[OPT_TRIM_KEEP] : usual_share_kept;
     out->inset = options->command->bit != GIS_CHECK ? options->text[OPT_INSET] : NULL;
     out->min_size = gis_resolve_length(options, OPT_MIN_SIZE);
+    out->enlarge = options->given[OPT_ENLARGE] && options->command->bit != GIS_CHECK;
     if (options->command->bit != GIS_CHECK) out->symbol_size = gis_resolve_length(options, OPT_SYMBOL_SIZE);
     out->rigid_where = options->text[OPT_RIGID_WHERE];
     const char *asked = out->hide               ? "--hide"
                         : out->trim             ? "--trim"
                         : out->inset            ? "--inset"
                         : out->symbol_size.text ? "--symbol-size"
+                        : out->enlarge          ? "--enlarge"
                                                 : NULL;
     for (size_t i = 0; asked && i < sizeof not_with / sizeof *not_with; i++)
         if (options->given[not_with[i]])
             return gis_fail_usage(error, "%s: not with %s", asked, gis_option_table[not_with[i]].names);
-    if ((out->inset || out->symbol_size.text) && options->given[OPT_PROOF]) /* the checker knows one rung */
-        return gis_fail_usage(error, "%s: not with %s", out->inset ? "--inset" : "--symbol-size",
-                              gis_option_table[OPT_PROOF].names);
+    const char *unproved = out->inset              ? "--inset" /* the checker knows one rung of the shapes as given */
+                           : out->symbol_size.text ? "--symbol-size"
+                           : out->enlarge          ? "--enlarge"
+                                                   : NULL;
+    if (unproved && options->given[OPT_PROOF])
+        return gis_fail_usage(error, "%s: not with %s", unproved, gis_option_table[OPT_PROOF].names);
+    if (options->given[OPT_ENLARGE] && (options->given[OPT_SYMBOL] || options->given[OPT_SYMBOL_FIELD]))
+        return gis_fail_usage(error, "--enlarge: polygons are made larger, and symbols have their sizes");
     if (options->given[OPT_TRIM] && !options->given[OPT_BARRIER])
         return gis_fail_usage(error, "--trim: features are cut back at barriers; give --barrier");
     if (out->trim_keep > 1) return gis_fail_usage(error, "--trim-keep %g: a share is at most 1", out->trim_keep);
@@ -307,6 +314,8 @@ void gis_resolve_original(const gis_options *options, const gis_layer_input_requ
     out->rules.trim = options->given[OPT_TRIM];
     out->rules.inset = options->text[OPT_INSET];
     out->rules.symbol_size = gis_resolve_length(options, OPT_SYMBOL_SIZE);
+    out->rules.enlarge = options->given[OPT_ENLARGE];
+    out->compared = true;
 }
 
 /* Checks the options of the command check that depend on --before: some apply to moves only, and some select features
@@ -316,7 +325,8 @@ static bool check_before(const gis_options *options, gis_error *error)
     static const gis_option_id of_moves[] = {OPT_MAX_SHIFT,   OPT_MAX_SHIFT_FIELD,
                                              OPT_FIXED_WHERE, OPT_ALLOW_JUMPS,
                                              OPT_ROWS,        OPT_TRIM,
-                                             OPT_INSET,       OPT_SYMBOL_SIZE},
+                                             OPT_INSET,       OPT_SYMBOL_SIZE,
+                                             OPT_ENLARGE},
                                of_results[] = {OPT_SQL, OPT_BBOX};
     bool before = options->given[OPT_BEFORE];
     if (options->command->bit != GIS_CHECK) return true;

@@ -5,8 +5,8 @@
 #include "commands/resolve.h"
 #include "commands/separate_run.h"
 #include "layer/levels.h"
-#include "sunder_hiding.h"
 #include "read/crs_units.h"
+#include "sunder_hiding.h"
 
 #include <cpl_conv.h>
 #include <math.h>
@@ -205,6 +205,7 @@ void gis_separate_stats(gis_json *out, const gis_separate_run *run)
     if (run->request.rules.hide || gis_levels_asked(&run->request.rules)) {
         json_hidden(out, run);
         json_shrunk(out, run);
+        gis_json_put_size(out, "enlarged", run->input.enlarged);
         gis_json_line(out);
     }
     gis_json_put_bool(out, "verified", run->verified);
@@ -302,7 +303,8 @@ static void print_hidden(const gis_separate_run *run)
     printf("hidden %zu, weight %.6g, at least %.6g is needed; %zu of %zu groups proved\n", hiding.hidden,
            (double)hiding.weight / GIS_HIDING_UNIT, (double)hiding.least / GIS_HIDING_UNIT, hiding.components_best,
            hiding.components);
-    if (gis_levels_asked(&run->request.rules)) print_shrunk(run, &hiding);
+    if (run->request.rules.enlarge) printf("enlarged %zu\n", run->input.enlarged);
+    if (run->input.levels.rungs) print_shrunk(run, &hiding);
 }
 
 static void print_shortfall(const gis_separate_run *run)

@@ -132,15 +132,22 @@ static void add_symbol(gis_text *to, kind of, const char *name, const char *colo
     gis_text_print(to, "</symbol>\n");
 }
 
-/* Adds hatching to the features that have a smaller shape. */
-static void add_hatching(gis_text *to, const char *colour)
+/* Adds hatching in a direction to the features for which an expression is true. */
+static void add_hatching(gis_text *to, const char *colour, const char *direction, const char *expression)
 {
     begin_layer(to, "SimpleFill");
     add_property(to, "color", colour);
-    add_property(to, "style", "b_diagonal");
+    add_property(to, "style", direction);
     add_property(to, "outline_style", "no");
-    add_expression(to, "enabled", "coalesce(&quot;sunder_lvl&quot;, 0) &gt; 0");
+    add_expression(to, "enabled", expression);
     gis_text_print(to, "</layer>");
+}
+
+/* Adds hatching to the features that have a smaller shape, and in the other direction to those with a larger one. */
+static void add_hatchings(gis_text *to, const char *colour)
+{
+    add_hatching(to, colour, "b_diagonal", "coalesce(&quot;sunder_lvl&quot;, 0) &gt; 0");
+    add_hatching(to, colour, "f_diagonal", "coalesce(&quot;sunder_cut&quot;, 0) &lt; 0");
 }
 
 /* Adds the fill of a status; hidden features have a dotted outline. rungs: features may have smaller shapes. */
@@ -149,7 +156,7 @@ static void add_status_fill(gis_text *to, const char *name, int status, const ch
 {
     begin_symbol(to, "fill", name);
     add_fill(to, colour, outline, status == SUNDER_FEATURE_HIDDEN ? "dot" : "solid");
-    if (rungs) add_hatching(to, outline);
+    if (rungs) add_hatchings(to, outline);
     gis_text_print(to, "</symbol>\n");
 }
 

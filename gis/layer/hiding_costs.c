@@ -26,7 +26,8 @@ static double class_value(const gis_layer_input *input, size_t i)
 
 sunder_hiding_cost gis_layer_hiding_cost(const gis_layer_input *input, size_t i)
 {
-    const double area = input->shape[i] ? sunder_shape_area(input->shape[i]) : 0;
+    const sunder_shape *shape = gis_layer_original(input, i);
+    const double area = shape ? sunder_shape_area(shape) : 0;
     const double value = input->hierarchy_field < 0 ? 1 : class_value(input, i);
     return (sunder_hiding_cost){isnan(value) ? GIS_LAST_CLASS : (uint32_t)value,
                                 weight_of(input->request->rules.hide_weighting, area)};

@@ -1,6 +1,7 @@
 /* layer_input.c: reads a layer: opens its source, makes shapes of its features, applies the rules to each, and passes
  * everything to the core. Hints about a misunderstood command line are added here, where it is known that opening
  * failed. */
+#include "layer/enlarging.h"
 #include "layer/levels.h"
 
 #include "base/core_error.h"
@@ -112,13 +113,20 @@ static bool set_sides(gis_layer_input *input, gis_error *error)
 /* Makes the smaller shapes. The command check makes them for the layers that it compares (moves.c). */
 static bool make_levels(gis_layer_input *input, gis_error *error)
 {
-    return !input->request->moves || gis_levels_make(input, NULL, input->n, input->layer, &input->levels, error);
+    return !input->request->moves || input->request->compared ||
+           gis_levels_make(input, NULL, input->n, input->layer, &input->levels, error);
+}
+
+/* Makes features larger. Those of a layer that is compared grow with the blocks of the other one (moves.c). */
+static bool enlarge(gis_layer_input *input, gis_error *error)
+{
+    for (size_t i = 0; i < input->n; i++) input->feature[i].shape = input->shape[i];
+    return input->request->compared || gis_enlarge(input, NULL, input->feature, input->n, error);
 }
 
 static bool make_layer(gis_layer_input *input, gis_error *error)
 {
     sunder_error why;
-    for (size_t i = 0; i < input->n; i++) input->feature[i].shape = input->shape[i];
     if (sunder_layer_new(input->feature, input->n, &input->layer, &why) != SUNDER_OK)
         return gis_core_failed(error, gis_source_name(input->source), &why);
     if (sunder_layer_set_barriers(input->layer, input->barriers.barrier, input->barriers.n, &why) != SUNDER_OK)
@@ -126,6 +134,7 @@ static bool make_layer(gis_layer_input *input, gis_error *error)
     if (sunder_layer_set_rows(input->layer, input->row, &why) != SUNDER_OK)
         return gis_core_failed(error, "--rows", &why);
     sunder_layer_set_crossed(input->layer, input->request->rules.crossed);
+    if (!gis_enlarge_tell(input, NULL, input->n, input->layer, error)) return false;
     return gis_layer_set_hiding(input, error) && make_levels(input, error) && set_sides(input, error);
 }
 
@@ -151,14 +160,19 @@ static double longest_limit(const gis_layer_input *input)
     return longest;
 }
 
-/* The box of a feature's shape and of its point, which makes the same move: the symbol may be drawn beside the
- * point. */
+/* The box of a feature's shape, of the one that it had before it became larger, and of its point, which makes the same
+ * move: the symbol may be drawn beside the point. */
 static bool box_of_ways(const gis_layer_input *input, size_t i, double box[4])
 {
     double at[2];
     bool any = false;
     gis_error none;
     if (!feature_box(input, i, box)) return false;
+    if (input->given && input->given[i]) {
+        double given[4];
+        sunder_shape_box(input->given[i], given);
+        for (int k = 0; k < 4; k++) box[k] = k < 2 ? fmin(box[k], given[k]) : fmax(box[k], given[k]);
+    }
     if (!input->points || !gis_layer_point(input, i, at, &any, &none) || !any) return true;
     for (int k = 0; k < 4; k++) box[k] = k < 2 ? fmin(box[k], at[k]) : fmax(box[k], at[k - 2]);
     return true;
@@ -249,7 +263,10 @@ bool gis_layer_make_room(gis_layer_input *input, bool demands, gis_error *error)
 void gis_layer_drop_features(gis_layer_input *input)
 {
     for (size_t i = 0; input->shape && i < input->n; i++) sunder_shape_free(input->shape[i]);
+    for (size_t i = 0; input->given && i < input->n; i++) sunder_shape_free(input->given[i]);
     free(input->shape);
+    free(input->given);
+    input->given = NULL;
     gis_levels_clear(&input->levels);
     free(input->feature);
     free(input->row);
@@ -295,7 +312,7 @@ bool gis_layer_input_read(const gis_layer_input_request *request, gis_layer_inpu
     gis_layer_warn_of_others(out, gis_source_content_count(out->source, GIS_POINTS) > 0);
     return gis_layer_marks(out, error) && gis_layer_mark_hidden(out, error) && gis_layer_blocks(out, error) &&
            gis_layer_weights(out, error) && gis_layer_limits(out, error) && gis_layer_rows(out, error) &&
-           read_barriers(out, error) && make_layer(out, error);
+           enlarge(out, error) && read_barriers(out, error) && make_layer(out, error);
 }
 
 void gis_layer_forget_demands(gis_layer_input *input)

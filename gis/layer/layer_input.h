@@ -27,6 +27,7 @@ typedef struct gis_layer_input_request {
     size_t barriers;
     const double *also; /* a further box near which barriers matter; NULL: none */
     bool wound;         /* orient all rings alike, since vertices of two layers will be compared */
+    bool compared;      /* another layer will be compared with it; its shapes become larger or smaller then */
     bool moves;         /* features will be moved, so barriers within reach of their limits are read */
     bool drawn;         /* everything will be drawn, features that conflict with nothing as well */
     gis_layer_rules rules;
@@ -51,12 +52,15 @@ typedef struct gis_layer_input {
     bool points;    /* features are points, and the shapes are their symbols */
     bool as_chords; /* arcs are replaced by their polylines, and shapes are not enlarged to contain the arcs */
     gis_crs_units units;
-    double gap, max_shift;   /* in units of the layer; max_shift = INFINITY: no limit */
-    double least_gap;        /* in units of the layer, if the rules have one */
-    double min_size;         /* likewise; 0 if they have none */
-    double tolerance;        /* in units of the layer; negative: the default */
-    sunder_shape **shape;    /* [n] NULL: the feature cannot conflict */
-    double *inset;           /* [insets] the lengths of --inset, in units of the layer */
+    double gap, max_shift; /* in units of the layer; max_shift = INFINITY: no limit */
+    double least_gap;      /* in units of the layer, if the rules have one */
+    double min_size;       /* likewise; 0 if they have none */
+    double tolerance;      /* in units of the layer; negative: the default */
+    sunder_shape **shape;  /* [n] NULL: the feature cannot conflict */
+    sunder_shape **given;  /* [n] as read, of those that were made larger since; NULL: none was */
+    size_t enlarged;       /* their number */
+    bool blocks_given;     /* blocks are those of the features; none are formed otherwise */
+    double *inset;         /* [insets] the lengths of --inset, in units of the layer */
     size_t insets;
     double symbol_size;      /* in units of the layer; 0 if it is not given */
     gis_levels levels;       /* the smaller shapes that features may have, if they are to be moved */
@@ -65,9 +69,9 @@ typedef struct gis_layer_input {
     double barrier_reach; /* barriers are known within this distance of each feature */
     sunder_layer *layer;
     gis_layer_shaping *shaping;
-    int64_t *row;            /* [n] the row of each feature by --rows FIELD, -1 for none; NULL: none are given */
+    int64_t *row; /* [n] the row of each feature by --rows FIELD, -1 for none; NULL: none are given */
     int id_field, block_field, limit_field, weight_field, rows_field, hierarchy_field,
-        hidden_field; /* index of each field; -1: not given */
+        hidden_field;     /* index of each field; -1: not given */
     size_t invalid, null; /* number of features with an invalid geometry; with none, or an empty one */
     size_t other;         /* number of features with another kind of geometry */
 } gis_layer_input;
@@ -76,6 +80,11 @@ typedef struct gis_layer_input {
 bool gis_layer_input_read(const gis_layer_input_request *request, gis_layer_input *out, gis_error *error);
 /* Reads the source and its shapes alone, arcs as chords, for a command without conflicts. */
 bool gis_layer_shapes_read(const gis_layer_input_request *request, gis_layer_input *out, gis_error *error);
+/* The shape of feature i as it was read. */
+static inline const sunder_shape *gis_layer_original(const gis_layer_input *input, size_t i)
+{
+    return input->given && input->given[i] ? input->given[i] : input->shape[i];
+}
 /* The distance around features within which barriers are read, for this longest limit. */
 double gis_layer_barrier_reach(const gis_layer_input *input, double longest_limit);
 /* Sets xy to the point of feature i; of a multipoint, the smallest by x, then y. *any is false if it has none. */

@@ -78,6 +78,8 @@ bool gis_layer_lengths(gis_layer_input *input, gis_error *error)
     if (input->gap > 0 && input->tolerance >= input->gap)
         return gis_fail_usage(error, "--touch-tolerance %s: must be less than the gap, %s", rules->touch_tolerance.text,
                               rules->gap.text);
+    if (rules->enlarge && !(input->min_size > 0))
+        return gis_fail_usage(error, "--enlarge: --min-size %s must be above 0", rules->min_size.text);
     if (rules->symbol_size.text && !(input->symbol_size > 0 && input->symbol_size >= input->min_size))
         return gis_fail_usage(error, "--symbol-size %s: must be above 0, and not below --min-size",
                               rules->symbol_size.text);

@@ -20,7 +20,7 @@ const char *gis_weighting_string(gis_weighting weighting);
 /* Strings are borrowed; zeroed members mean "not given". */
 typedef struct gis_layer_rules {
     gis_optional_length gap, least_gap, max_shift, touch_tolerance;
-    bool has_least_gap; /* --least-gap is given, or least= of a barrier */
+    bool has_least_gap;                     /* --least-gap is given, or least= of a barrier */
     const char *ignore_where, *fixed_where; /* SQL */
     const char *block_field, *weight_field, *max_shift_field, *rows_field;
     gis_weighting weighting;
@@ -28,8 +28,9 @@ typedef struct gis_layer_rules {
     bool trim; /* features may be cut back at barriers, but keep this share of their area, and a disc of this size */
     double trim_keep;
     sunder_crossed crossed; /* what becomes of features that a line of a barrier crosses */
-    const char *inset; /* the lengths of --inset, separated by commas */
+    const char *inset;      /* the lengths of --inset, separated by commas */
     gis_optional_length min_size, symbol_size;
+    bool enlarge;            /* features are made as large as min_size first */
     const char *rigid_where; /* SQL: features whose shapes do not change */
     const char *hierarchy_field;
     const char *hidden_field; /* of a result: which features are hidden */

@@ -9,7 +9,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool gis_levels_asked(const gis_layer_rules *rules) { return rules->trim || rules->inset || rules->symbol_size.text; }
+bool gis_levels_asked(const gis_layer_rules *rules)
+{
+    return rules->trim || rules->inset || rules->symbol_size.text || rules->enlarge;
+}
 
 void gis_levels_clear(gis_levels *levels)
 {

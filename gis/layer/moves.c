@@ -2,6 +2,7 @@
  * and everything else are those of the original. */
 #include "layer/moves.h"
 
+#include "layer/enlarging.h"
 #include "layer/levels.h"
 
 #include "base/core_error.h"
@@ -206,6 +207,7 @@ static bool set_rows(gis_moves *m, gis_error *error)
 static bool make_layers(pairing *p, gis_error *error)
 {
     gis_moves *m = p->moves;
+    if (!gis_enlarge(&m->original, m->matched, p->before, m->n, error)) return false;
     const gis_barriers *barriers = &m->original.barriers;
     sunder_error why;
     if (sunder_layer_new(p->before, m->n, &m->before, &why) != SUNDER_OK ||
@@ -214,8 +216,8 @@ static bool make_layers(pairing *p, gis_error *error)
         sunder_layer_set_barriers(m->after, barriers->barrier, barriers->n, &why) != SUNDER_OK)
         return gis_core_failed(error, "--before", &why);
     sunder_layer_set_crossed(m->before, m->original.request->rules.crossed);
-    return set_rows(m, error) && set_sides(m, error) &&
-           gis_levels_make(&m->original, m->matched, m->n, m->before, &m->levels, error);
+    return gis_enlarge_tell(&m->original, m->matched, m->n, m->before, error) && set_rows(m, error) &&
+           set_sides(m, error) && gis_levels_make(&m->original, m->matched, m->n, m->before, &m->levels, error);
 }
 
 /* ---- All of it --------------------------------------------------------------------------------------------------- */

@@ -8,9 +8,9 @@
 typedef struct gis_moves {
     gis_layer_input original;
     sunder_layer *before, *after; /* only the matched features, in the same order */
-    gis_levels levels; /* the smaller shapes that the features of `before` may have */
+    gis_levels levels;            /* the smaller shapes that the features of `before` may have */
     sunder_report *report;
-    bool hidden; /* the result has hidden features */
+    bool hidden;     /* the result has hidden features */
     size_t *matched; /* [n] numbers of the features in the original */
     size_t *lost;    /* [n_lost] numbers in the original of features that are missing in the checked layer */
     size_t n, n_lost;

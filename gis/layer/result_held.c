@@ -20,20 +20,26 @@ static gis_value block_value(const gis_result *r, bool has_null, size_t feature)
 /* Fills in the shape that the feature has instead of its own, if it does. */
 static void fill_level(const gis_result *r, size_t i, gis_feature_row *row)
 {
+    const gis_layer_input *input = r->input;
+    const sunder_shape *larger = input->given && input->given[i] ? input->shape[i] : NULL;
     const size_t level = sunder_report_level(r->of, i);
-    if (!level || row->status == SUNDER_FEATURE_HIDDEN) return;
-    const size_t rung = gis_levels_rung(&r->input->levels, i, level);
+    if ((!level && !larger) || row->status == SUNDER_FEATURE_HIDDEN) return;
+    row->multi = wkbFlatten(OGR_G_GetGeometryType(gis_source_geometry(input->source, i))) == wkbMultiPolygon;
+    row->other = larger;
+    row->lost = larger ? 1 - sunder_shape_area(larger) / sunder_shape_area(input->given[i]) : 0;
+    if (!level) return;
+    const size_t rung = gis_levels_rung(&input->levels, i, level);
     row->rung = rung + 1;
-    row->smaller = gis_levels_shape(&r->input->levels, i, rung);
-    row->multi = wkbFlatten(OGR_G_GetGeometryType(gis_source_geometry(r->input->source, i))) == wkbMultiPolygon;
-    row->lost = 1 - sunder_shape_area(row->smaller) / sunder_shape_area(r->input->shape[i]);
+    row->other = gis_levels_shape(&input->levels, i, rung);
+    row->lost = 1 - sunder_shape_area(row->other) / sunder_shape_area(input->shape[i]);
 }
 
 static bool fill_size(const gis_result *r, size_t i, gis_feature_row *row, gis_error *error)
 {
+    const sunder_shape *shape = row->other ? row->other : gis_layer_original(r->input, i);
     double centre[2], radius;
     sunder_error why;
-    if (sunder_shape_largest_disc(row->smaller ? row->smaller : r->input->shape[i], centre, &radius, &why) != SUNDER_OK)
+    if (sunder_shape_largest_disc(shape, centre, &radius, &why) != SUNDER_OK)
         return gis_core_failed(error, "sunder_siz", &why);
     row->size = 2 * radius;
     return true;
@@ -45,7 +51,7 @@ static bool visit_features(const gis_result *r, bool has_null, gis_feature_visit
         gis_feature_row row = {.status = sunder_report_status(r->of, i), .block = block_value(r, has_null, i)};
         sunder_report_move(r->of, i, &row.dx, &row.dy);
         fill_level(r, i, &row);
-        if (r->input->levels.rungs && !fill_size(r, i, &row, error)) return false;
+        if (gis_levels_asked(&r->input->request->rules) && !fill_size(r, i, &row, error)) return false;
         if (!visit(user, i, &row, error)) return false;
     }
     return true;

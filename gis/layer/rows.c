@@ -63,8 +63,8 @@ bool gis_main_row(gis_sink_layer *layer, size_t i, const gis_feature_row *row, g
         {row->size > 0 ? GIS_REAL : GIS_NULL, {.real = row->size}},
     };
     if (!gis_go_on(error)) return false;
-    if (!row->smaller) return gis_sink_write_source(layer, i, row->dx, row->dy, values, error);
-    OGRGeometryH geometry = geometry_of(row->smaller, row->dx, row->dy, row->multi, error);
+    if (!row->other) return gis_sink_write_source(layer, i, row->dx, row->dy, values, error);
+    OGRGeometryH geometry = geometry_of(row->other, row->dx, row->dy, row->multi, error);
     return geometry && gis_sink_write_shaped(layer, i, geometry, values, error);
 }
 

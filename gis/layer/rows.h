@@ -19,11 +19,11 @@ typedef struct gis_feature_row {
     double dx, dy;
     sunder_feature_status status;
     gis_value block;
-    const sunder_shape *smaller; /* the shape that the feature has instead of its own; NULL: it has its own */
-    bool multi;                  /* ... which is written as a multipolygon */
-    size_t rung;                 /* ... and is this one of the run's smaller shapes, from 1 on; 0: its own */
-    double lost;                 /* the share of its area that the feature lost */
-    double size;                 /* the diameter of the largest disc in the shape that is written; 0: unknown */
+    const sunder_shape *other; /* the shape that the feature has instead of its own; NULL: it has its own */
+    bool multi;                /* ... which is written as a multipolygon */
+    size_t rung;               /* ... and is this one of the run's smaller shapes, from 1 on; 0: its own */
+    double lost;               /* the share of its area that the feature lost */
+    double size;               /* the diameter of the largest disc in the shape that is written; 0: unknown */
 } gis_feature_row;
 
 /* hide: the layer has the column sunder_inv; smaller: it has sunder_lvl, sunder_cut and sunder_siz. */

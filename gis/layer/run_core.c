@@ -32,6 +32,7 @@ sunder_layer_options gis_layer_core_options(const gis_layer_input *input)
     core.touch_tolerance = input->tolerance;
     core.no_touch = input->points && !rules->touch_tolerance.text;
     core.thin = gis_layer_thin(input);
+    core.no_blocks = core.no_blocks || input->blocks_given;
     core.drop_proofs = !core.keep_trees;
     core.barrier_reach = input->barrier_reach;
     core.kink = gis_layer_kink(input);

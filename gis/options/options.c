@@ -266,6 +266,7 @@ static bool check_needs(const gis_options *out, gis_error *error)
         {OPT_OVERWRITE_LAYER, OPT_UPDATE},
         {OPT_DIALECT, OPT_SQL},
         {OPT_DROP_HIDDEN, OPT_HIDE},
+        {OPT_ENLARGE, OPT_MIN_SIZE},
     };
     for (size_t i = 0; i < sizeof needs / sizeof *needs; i++) {
         const gis_option *one = &gis_option_table[needs[i][0]], *other = &gis_option_table[needs[i][1]];

@@ -56,6 +56,8 @@ const gis_option gis_option_table[OPT_N] = {
                    NULL, "move outlines of blocks in where there is no room"},
     [OPT_MIN_SIZE] = {OPT_MIN_SIZE, "--min-size", GIS_TYPE_LENGTH, GIS_SEPARATE | GIS_CHECK, GIS_GROUP_ROOM, "LENGTH",
                       NULL, "diameter of a disc that fits into what became smaller"},
+    [OPT_ENLARGE] = {OPT_ENLARGE, "--enlarge", GIS_TYPE_FLAG, GIS_SEPARATE | GIS_CHECK, GIS_GROUP_ROOM, NULL, NULL,
+                     "first make features larger that are below --min-size"},
     [OPT_SYMBOL_SIZE] = {OPT_SYMBOL_SIZE, "--symbol-size", GIS_TYPE_LENGTH, GIS_SEPARATE | GIS_CHECK, GIS_GROUP_ROOM,
                          "LENGTH", NULL, "scale features, at last to a square of this side"},
     [OPT_RIGID_WHERE] = {OPT_RIGID_WHERE, "--rigid-where", GIS_TYPE_SQL, GIS_SEPARATE | GIS_CHECK, GIS_GROUP_ROOM,

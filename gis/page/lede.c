@@ -136,12 +136,24 @@ static void add_solved(size_t before, size_t after, gis_text *to)
     }
 }
 
+static void add_enlarged(const gis_page_model *model, gis_text *to)
+{
+    const gis_layer_input *input = model->request->input;
+    if (!input->request->rules.enlarge) return;
+    gis_page_add_number_of(to, input->enlarged, "feature", "features");
+    gis_text_add(to, input->enlarged == 1 ? " was" : " were");
+    gis_text_add(to, " made larger first, so that ");
+    add_length(model, &input->request->rules.min_size, input->min_size, to);
+    gis_text_add(to, " fit into each. ");
+}
+
 bool gis_page_lede(const gis_page_model *model, const gis_thinning *thinning, gis_text *to, gis_error *error)
 {
     (void)thinning, (void)error;
     const sunder_layer_summary *summary = model->request->summary;
     const size_t before = gis_page_conflict_count(&summary->before), after = gis_page_conflict_count(&summary->after);
     add_task(model, to);
+    add_enlarged(model, to);
     if (before == 0) {
         gis_text_add(to, "There was nothing to do: no two were in conflict.");
         return true;

@@ -60,15 +60,16 @@ ogrinfo -q -dialect sqlite -sql "UPDATE buildings_pushes SET force = 0.0001 WHER
 thin=$(drawn buildings_pushes! 50)
 [ "$wide" -gt 50 ] && [ "$thin" -lt $((wide * 7 / 10)) ] || fail "pushes are not drawn by their force: $wide and $thin pixels"
 
-# Features with a smaller shape are hatched in the colour of their outlines.
+# Features with a smaller or a larger shape are hatched in the colour of their outlines.
 "$SUNDER" separate --input-layer buildings --gap 3 --max-shift 1 --inset 0.5,1 --hide --allow-conflicts --quiet "$town" "$work/rungs.gpkg"
-hatched() { # rung: prints the number of pixels in the colour of the outlines of moved features
-    ogrinfo -q -dialect sqlite -sql "UPDATE buildings SET sunder_lvl = $1, sunder_st = 'moved'" "$work/rungs.gpkg" >/dev/null
+hatched() { # rung, share of the area lost: prints the number of pixels in the colour of the outlines of moved features
+    ogrinfo -q -dialect sqlite -sql "UPDATE buildings SET sunder_lvl = $1, sunder_cut = $2, sunder_st = 'moved'" "$work/rungs.gpkg" >/dev/null
     "$python" "$here/render_colours.py" "$work/rungs.gpkg" "$work/rungs.png" buildings -- outline=15,95,70=0 |
         sed -n 's/^outline.*: \([0-9]*\) pixels.*/\1/p'
 }
-given=$(hatched 0) smaller=$(hatched 1)
+given=$(hatched 0 0) smaller=$(hatched 1 0.1) larger=$(hatched 0 -0.5)
 [ "$smaller" -gt $((given * 2)) ] || fail "smaller features are not hatched: $given pixels, and $smaller"
+[ "$larger" -gt $((given * 2)) ] || fail "larger features are not hatched: $given pixels, and $larger"
 
 # Without stored styles QGIS draws in a random colour of its own: then none of ours may be found, otherwise this test
 # could not fail.
