@@ -19,6 +19,7 @@ static sunder_status make_levels(sunder_shape *const *house, sunder_shape **out)
     static const size_t line_end[] = {2};
     const sunder_barrier barrier = {{.xy = road, .line_end = line_end, .lines = 1}, 0.5, 1, true, 0};
     sunder_feature feature[HOUSES];
+    int64_t block[HOUSES];
     sunder_layer *layer = NULL;
     sunder_layer_options options;
     sunder_layer_options_init(&options);
@@ -27,16 +28,18 @@ static sunder_status make_levels(sunder_shape *const *house, sunder_shape **out)
         feature[k] = (sunder_feature){.shape = house[k], .weight = 1, .max_shift = INFINITY, .block = -1};
     sunder_status status = sunder_layer_new(feature, HOUSES, &layer, NULL);
     if (!status) status = sunder_layer_set_barriers(layer, &barrier, 1, NULL);
-    for (int kind = 0; kind < 3 && !status; kind++) {
+    for (int kind = 0; kind < 4 && !status; kind++) {
         if (kind == 0)
             status = sunder_layer_trim(layer, &options, &(sunder_trimming){0.5, 2}, out, NULL);
         else if (kind == 1)
             status = sunder_layer_inset(layer, &options, &(sunder_inset){lengths, 2, 2}, NULL, out, NULL);
+        else if (kind == 2)
+            status = sunder_layer_enlarge(layer, &options, &(sunder_enlarging){12, NULL}, out, block, NULL);
         else
             status = sunder_layer_scale(layer, &options, &(sunder_scaling){factors, 2, 3, 2}, NULL, out, NULL);
         for (size_t k = 0; k < HOUSES * RUNGS; k++) {
-            const bool made = k < HOUSES * (kind == 0 ? 1 : kind == 1 ? 2 : 3);
-            if (kind < 2 && made) assert_int_equal(out[k] != NULL, !status);
+            const bool made = k < HOUSES * (kind == 1 ? 2 : kind == 3 ? 3 : 1);
+            if (kind < 3 && made) assert_int_equal(out[k] != NULL, !status);
             if (made) sunder_shape_free(out[k]);
             out[k] = NULL;
         }
