@@ -80,6 +80,11 @@ SUNDER_EXPERIMENTAL sunder_status sunder_layer_enlarge(const sunder_layer *layer
                                                        const sunder_enlarging *enlarging, sunder_shape **shape,
                                                        int64_t *block, sunder_error *err);
 
+/* Sets block[n] to the block of each feature by the options: the number of its first feature; -1 for a feature in none.
+ * Fails with SUNDER_ENOMEM or SUNDER_ECANCEL. */
+SUNDER_EXPERIMENTAL sunder_status sunder_layer_blocks(const sunder_layer *layer, const sunder_layer_options *options,
+                                                      int64_t *block, sunder_error *err);
+
 /* Says that features of the layer were made larger. shape: [n] the shapes that they had before, NULL for a feature that
  * has the same; copied, but the shapes remain the caller's and must outlive the layer. NULL: none was made larger.
  * These shapes decide on which sides of barriers features stand, and which a barrier crosses. Fails with
@@ -92,6 +97,11 @@ typedef struct sunder_trimming {
     double keep;  /* the least share of its area that a feature keeps, from 0 to 1 */
     double width; /* >= 0; a disc of this diameter lies in what remains */
 } sunder_trimming;
+
+/* Says what sunder_layer_check_moves() demands of features that have smaller shapes: one with a shape that it may not
+ * have is too small (SUNDER_CONFLICT_TOO_SMALL) if it keeps less, or if the disc does not fit into one of its polygons,
+ * and else altered. Nothing is demanded by default. */
+SUNDER_EXPERIMENTAL void sunder_layer_set_least(sunder_layer *layer, const sunder_trimming *least);
 
 /* Cuts features back to the largest polygon of what is as far from all barriers as they have to be; with
  * the gap of the options. shape: [n] becomes, for each feature that is cut and meets the conditions, a new shape that

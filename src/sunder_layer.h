@@ -191,12 +191,13 @@ typedef enum sunder_conflict_kind {
                                       * the row, by `distance`, and at least `required` was allowed */
     SUNDER_CONFLICT_NEEDLESS,        /* a is hidden, but would be in no conflict where it stood or where its block is */
     SUNDER_CONFLICT_ALTERED,         /* a is neither a translate of what it was nor of one of its smaller shapes */
+    SUNDER_CONFLICT_TOO_SMALL,       /* ... and less than sunder_layer_set_least() demands */
     /* The pair is no conflict: it keeps the gap, but not the full gap. It has no reason, and blocks no feature. */
     SUNDER_CONFLICT_TIGHT
 } sunder_conflict_kind;
 
 /* "overlap", "too_close", "barrier", "barrier_drawn", "barrier_near", "contained", "duplicate", "worse", "limit",
- * "side", "jump", "not_a_translate", "row", "tight". */
+ * "side", "jump", "not_a_translate", "row", "needless", "altered", "too_small", "tight". */
 SUNDER_API const char *sunder_conflict_kind_string(sunder_conflict_kind kind);
 
 typedef enum sunder_reason {
@@ -314,7 +315,7 @@ SUNDER_API sunder_status sunder_layer_check(const sunder_layer *layer, const sun
 
 /* Lists the rules that the moves from `before` to `after` broke, whatever program made them. The two layers have the
  * same features in the same order. Each broken rule is a conflict of the report, of one of the kinds from
- * SUNDER_CONFLICT_WORSE to SUNDER_CONFLICT_ALTERED; summary.verified is true if there is none. Limits, blocks, and
+ * SUNDER_CONFLICT_WORSE to SUNDER_CONFLICT_TOO_SMALL; summary.verified is true if there is none. Limits, blocks, and
  * fixed and ignored features are those of `before`. What is ignored in `after` alone is hidden: it owes nothing, and
  * nothing is owed to it. The options should be those of the run that made the moves. Two things are not checked:
  * whether the features of a block moved together, and the move of a repaired shape that was written in its repaired

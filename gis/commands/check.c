@@ -135,14 +135,15 @@ static bool print_lines(const check_run *run, gis_error *error)
 static bool is_asked_about(const gis_moves *moves, sunder_conflict_kind kind)
 {
     if (kind == SUNDER_CONFLICT_NEEDLESS) return moves->hidden;
-    if (kind == SUNDER_CONFLICT_ALTERED) return gis_levels_asked(&moves->original.request->rules);
+    if (kind == SUNDER_CONFLICT_ALTERED || kind == SUNDER_CONFLICT_TOO_SMALL)
+        return gis_levels_asked(&moves->original.request->rules);
     return kind != SUNDER_CONFLICT_ROW || moves->original.request->rules.core.rows;
 }
 
 static void print_moves(const gis_moves *moves)
 {
     printf("since %s: %zu matched", gis_source_path(moves->original.source), moves->n);
-    for (sunder_conflict_kind kind = SUNDER_CONFLICT_WORSE; kind <= SUNDER_CONFLICT_ALTERED; kind++)
+    for (sunder_conflict_kind kind = SUNDER_CONFLICT_WORSE; kind <= SUNDER_CONFLICT_TOO_SMALL; kind++)
         if (is_asked_about(moves, kind))
             printf(", %s %zu", sunder_conflict_kind_string(kind), gis_moves_count(moves, kind));
     printf(", %s %zu\n", GIS_MOVES_LOST, moves->n_lost);
@@ -178,7 +179,7 @@ static void json_moves(gis_json *out, const gis_moves *moves)
     gis_json_key(out, "moves");
     gis_json_open(out, '{');
     gis_json_put_size(out, "matched", moves->n);
-    for (sunder_conflict_kind kind = SUNDER_CONFLICT_WORSE; kind <= SUNDER_CONFLICT_ALTERED; kind++)
+    for (sunder_conflict_kind kind = SUNDER_CONFLICT_WORSE; kind <= SUNDER_CONFLICT_TOO_SMALL; kind++)
         if (is_asked_about(moves, kind))
             gis_json_put_size(out, sunder_conflict_kind_string(kind), gis_moves_count(moves, kind));
     gis_json_put_size(out, GIS_MOVES_LOST, moves->n_lost);

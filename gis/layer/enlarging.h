@@ -4,11 +4,11 @@
 
 #include "layer/layer_input.h"
 
-/* Makes larger the features matched[n] of `input` that are too small (NULL: all n features), in place: they get their
- * larger shapes in input->shape and as given[] the ones that they had. Sets feature[n], which have the demands on them,
- * to these shapes and to the blocks that they form by the rules. Does nothing if the rules do not ask for it. */
-bool gis_enlarge(gis_layer_input *input, const size_t *matched, sunder_feature *feature, size_t n, gis_error *error);
-/* Tells a layer of these features the shapes that they had. */
+/* Makes the features of `input` larger that are too small, in place: they get their larger shapes in input->shape, and
+ * as given[] the ones that they had. Sets feature[], the demands on all of them, to these shapes and to the blocks that
+ * they form by the rules. Does nothing if the rules do not ask for it. */
+bool gis_enlarge(gis_layer_input *input, sunder_feature *feature, gis_error *error);
+/* Tells a layer of the features matched[n] of `input` (NULL: all n features) the shapes that they had. */
 bool gis_enlarge_tell(const gis_layer_input *input, const size_t *matched, size_t n, sunder_layer *layer,
                       gis_error *error);
 

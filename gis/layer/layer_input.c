@@ -113,15 +113,16 @@ static bool set_sides(gis_layer_input *input, gis_error *error)
 /* Makes the smaller shapes. The command check makes them for the layers that it compares (moves.c). */
 static bool make_levels(gis_layer_input *input, gis_error *error)
 {
-    return !input->request->moves || input->request->compared ||
-           gis_levels_make(input, NULL, input->n, input->layer, &input->levels, error);
+    if (!input->request->moves || input->request->compared) return true;
+    return gis_levels_make(input, input->layer, &input->levels, error) &&
+           gis_levels_set(input, &input->levels, NULL, input->n, input->layer, error);
 }
 
 /* Makes features larger. Those of a layer that is compared grow with the blocks of the other one (moves.c). */
 static bool enlarge(gis_layer_input *input, gis_error *error)
 {
     for (size_t i = 0; i < input->n; i++) input->feature[i].shape = input->shape[i];
-    return input->request->compared || gis_enlarge(input, NULL, input->feature, input->n, error);
+    return input->request->compared || gis_enlarge(input, input->feature, error);
 }
 
 static bool make_layer(gis_layer_input *input, gis_error *error)

@@ -41,19 +41,24 @@ static int64_t cost_of(const gis_layer_input *input, size_t i, const sunder_shap
     return (int64_t)fmax(1, fmin(nearbyint(cost), (double)SUNDER_GREATEST_HIDING_WEIGHT));
 }
 
-static bool set_levels(const gis_layer_input *input, const size_t *matched, const gis_levels *levels,
-                       sunder_layer *layer, gis_error *error)
+bool gis_levels_set(const gis_layer_input *input, const gis_levels *levels, const size_t *matched, size_t n,
+                    sunder_layer *layer, gis_error *error)
 {
+    const gis_layer_rules *rules = &input->request->rules;
+    const sunder_trimming least = {rules->trim ? rules->trim_keep : 0, input->min_size};
     sunder_error why;
+    if (!gis_levels_asked(rules)) return true;
+    sunder_layer_set_least(layer, &least);
     sunder_level *level = malloc((levels->features * levels->rungs + 1) * sizeof *level);
-    size_t *end = malloc((levels->features + 1) * sizeof *end), n = 0;
+    size_t *end = malloc((n + 1) * sizeof *end), made = 0;
     bool ok = (level && end) || gis_no_memory(error);
-    for (size_t k = 0; ok && k < levels->features; k++) {
+    for (size_t k = 0; ok && k < n; k++) {
+        const size_t i = matched ? matched[k] : k;
         for (size_t rung = 0; rung < levels->rungs; rung++) {
-            const sunder_shape *shape = gis_levels_shape(levels, k, rung);
-            if (shape) level[n++] = (sunder_level){shape, cost_of(input, matched ? matched[k] : k, shape)};
+            const sunder_shape *shape = gis_levels_shape(levels, i, rung);
+            if (shape) level[made++] = (sunder_level){shape, cost_of(input, i, shape)};
         }
-        end[k] = n;
+        end[k] = made;
     }
     if (ok && sunder_layer_set_levels(layer, level, end, &why) != SUNDER_OK)
         ok = gis_core_failed(error, gis_source_name(input->source), &why);
@@ -143,14 +148,14 @@ static bool scale(maker *m, gis_error *error)
 }
 
 /* Drops the smaller shapes of the features that --rigid-where selects. */
-static bool keep_rigid(const gis_layer_input *input, const size_t *matched, gis_levels *levels, gis_error *error)
+static bool keep_rigid(const gis_layer_input *input, gis_levels *levels, gis_error *error)
 {
     const char *where = input->request->rules.rigid_where;
     if (!where) return true;
     bool *rigid = calloc(input->n + 1, sizeof *rigid);
     const bool ok = rigid ? gis_source_mark(input->source, "--rigid-where", where, rigid, error) : gis_no_memory(error);
     for (size_t k = 0; ok && k < levels->features; k++) {
-        if (!rigid[matched ? matched[k] : k]) continue;
+        if (!rigid[k]) continue;
         for (size_t rung = 0; rung < levels->rungs; rung++) {
             sunder_shape_free(levels->shape[k * levels->rungs + rung]);
             levels->shape[k * levels->rungs + rung] = NULL;
@@ -160,14 +165,13 @@ static bool keep_rigid(const gis_layer_input *input, const size_t *matched, gis_
     return ok;
 }
 
-bool gis_levels_make(const gis_layer_input *input, const size_t *matched, size_t n, sunder_layer *layer,
-                     gis_levels *out, gis_error *error)
+bool gis_levels_make(const gis_layer_input *input, const sunder_layer *layer, gis_levels *out, gis_error *error)
 {
     maker m = {.input = input, .layer = layer, .core = gis_layer_core_options(input), .levels = out};
     *out = (gis_levels){0};
     if (!gis_levels_asked(&input->request->rules)) return true;
-    const bool ok = begin(&m, n, error) && trim(&m, error) && inset(&m, error) && scale(&m, error) &&
-                    keep_rigid(input, matched, out, error) && set_levels(input, matched, out, layer, error);
+    const bool ok = begin(&m, input->n, error) && trim(&m, error) && inset(&m, error) && scale(&m, error) &&
+                    keep_rigid(input, out, error);
     free(m.one);
     free(m.least);
     return ok;

@@ -10,10 +10,12 @@
 /* Do the rules allow smaller shapes? */
 bool gis_levels_asked(const gis_layer_rules *rules);
 
-/* Makes the smaller shapes of the features of `layer`, which are the features matched[n] of `input` in this order
- * (NULL: all n features), and sets them as its levels. Clear *out also after a failure; it must outlive the layer. */
-bool gis_levels_make(const gis_layer_input *input, const size_t *matched, size_t n, sunder_layer *layer,
-                     gis_levels *out, gis_error *error);
+/* Makes the smaller shapes of the features of `input`; `layer` has all of them. Clear *out also after a failure. */
+bool gis_levels_make(const gis_layer_input *input, const sunder_layer *layer, gis_levels *out, gis_error *error);
+/* Sets the smaller shapes, and the least that they keep, for a layer of the features matched[n] of `input` (NULL: all n
+ * features). They must outlive the layer. Does nothing if the rules do not allow any. */
+bool gis_levels_set(const gis_layer_input *input, const gis_levels *levels, const size_t *matched, size_t n,
+                    sunder_layer *layer, gis_error *error);
 void gis_levels_clear(gis_levels *levels);
 
 /* Returns the rung of level k >= 1 of feature i, counted from 0. */

@@ -4,6 +4,7 @@
 
 #include "layer/enlarging.h"
 #include "layer/levels.h"
+#include "layer/levels_again.h"
 
 #include "base/core_error.h"
 #include "base/message.h"
@@ -138,9 +139,9 @@ static bool move_arcs(pairing *p, size_t k, size_t is, gis_error *error)
 static bool take_pair(pairing *p, size_t was, size_t is, gis_error *error)
 {
     gis_moves *m = p->moves;
+    m->original.feature[was].block = p->now->feature[is].block;
     p->before[m->n] = m->original.feature[was];
     p->after[m->n] = p->now->feature[is];
-    p->before[m->n].block = p->now->feature[is].block;
     m->matched[m->n++] = was;
     return move_arcs(p, m->n - 1, is, error);
 }
@@ -207,7 +208,8 @@ static bool set_rows(gis_moves *m, gis_error *error)
 static bool make_layers(pairing *p, gis_error *error)
 {
     gis_moves *m = p->moves;
-    if (!gis_enlarge(&m->original, m->matched, p->before, m->n, error)) return false;
+    if (!gis_levels_again(&m->original, m->lost, m->n_lost, &m->levels, error)) return false;
+    for (size_t k = 0; k < m->n; k++) p->before[k] = m->original.feature[m->matched[k]];
     const gis_barriers *barriers = &m->original.barriers;
     sunder_error why;
     if (sunder_layer_new(p->before, m->n, &m->before, &why) != SUNDER_OK ||
@@ -217,7 +219,7 @@ static bool make_layers(pairing *p, gis_error *error)
         return gis_core_failed(error, "--before", &why);
     sunder_layer_set_crossed(m->before, m->original.request->rules.crossed);
     return gis_enlarge_tell(&m->original, m->matched, m->n, m->before, error) && set_rows(m, error) &&
-           set_sides(m, error) && gis_levels_make(&m->original, m->matched, m->n, m->before, &m->levels, error);
+           set_sides(m, error) && gis_levels_set(&m->original, &m->levels, m->matched, m->n, m->before, error);
 }
 
 /* ---- All of it --------------------------------------------------------------------------------------------------- */
@@ -305,7 +307,9 @@ bool gis_moves_row(const gis_moves *moves, size_t k, gis_conflict_texts *scratch
     if (!gis_conflict_values(&moves->original, &row, scratch, values, error)) return false;
     memcpy(from, row.from, sizeof row.from);
     memcpy(to, row.to, sizeof row.to);
-    if (!lost && row.kind != SUNDER_CONFLICT_NOT_A_TRANSLATE && row.kind != SUNDER_CONFLICT_ALTERED) return true;
+    if (!lost && row.kind != SUNDER_CONFLICT_NOT_A_TRANSLATE && row.kind != SUNDER_CONFLICT_ALTERED &&
+        row.kind != SUNDER_CONFLICT_TOO_SMALL)
+        return true;
     /* The row has no line and no distances. */
     anchor_of(moves, row.a, from);
     memcpy(to, from, sizeof row.to);

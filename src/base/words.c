@@ -42,9 +42,9 @@ WORDS(sunder_containment_string, sunder_containment, SUNDER_CONTAINMENT_SEPARATE
 WORDS(sunder_feature_status_string, sunder_feature_status, SUNDER_FEATURE_HIDDEN, "", "unmoved", "moved", "fixed",
       "blocked", "skipped", "hidden")
 
-WORDS(sunder_conflict_kind_string, sunder_conflict_kind, SUNDER_CONFLICT_TIGHT, "", "overlap", "too_close",
-      "barrier", "barrier_drawn", "barrier_near", "contained", "duplicate", "worse", "limit", "side", "jump",
-      "not_a_translate", "row", "needless", "altered", "tight")
+WORDS(sunder_conflict_kind_string, sunder_conflict_kind, SUNDER_CONFLICT_TIGHT, "", "overlap", "too_close", "barrier",
+      "barrier_drawn", "barrier_near", "contained", "duplicate", "worse", "limit", "side", "jump", "not_a_translate",
+      "row", "needless", "altered", "too_small", "tight")
 
 WORDS(sunder_reason_string, sunder_reason, SUNDER_REASON_ROW, "", "", "max_shift", "fixed", "side", "jump",
       "no_room", "same_block", "kept", "unresolved", "row")

@@ -7,13 +7,15 @@
  * those of the layer before.
  *
  * A feature of the layer before may have smaller shapes (sunder_layer_set_levels()). If one of them, translated, is the
- * shape of the feature now, pairs are checked with that shape. Blocks, limits, anchors and rows are always those of the
+ * shape of the feature now, pairs are checked with that shape. A feature with none of its shapes is too small if it is
+ * less than the least that a smaller shape keeps. Blocks, limits, anchors and rows are always those of the
  * shape as given.
  *
  * A feature that is ignored in the layer after alone is hidden: it owes nothing, and nothing is owed to it. It is
  * needless if it would be in no conflict where it stood, moved with its block. */
 #include "displacement/layer/barrier_pairs.h"
 #include "displacement/layer/rounding.h"
+#include "displacement/levels/levels.h"
 #include "displacement/report/report.h"
 #include "displacement/rows/rows.h"
 
@@ -83,6 +85,23 @@ static bool is_move(const comparison *c, size_t f, const sunder_shape *was, cons
     return read ? sunder_i_move_between(was, is, t) : sunder_i_move_between_sets(was, is, t);
 }
 
+/* Of which kind is feature f, which is a translate of no shape that it may have? */
+static sunder_status judge_shape(const comparison *c, size_t f, sunder_conflict_kind *kind, sunder_error *err)
+{
+    const sunder_shape *was = c->before->shape[f], *is = c->after->shape[f];
+    const sunder_trimming *least = &c->before->least;
+    sunder_shape *disc = NULL;
+    bool fits = true;
+    *kind = c->before->level_end ? SUNDER_CONFLICT_ALTERED : SUNDER_CONFLICT_NOT_A_TRANSLATE;
+    if (!c->before->level_end || !is || sunder_shape_is_empty(is)) return SUNDER_OK;
+    sunder_status status = SUNDER_OK;
+    if (least->width > 0) status = sunder_shape_disc(least->width / 2, SUNDER_I_ROUND_CORNERS, false, &disc, err);
+    if (!status && disc) status = sunder_i_disc_fits_polygons(is, disc, &fits, err);
+    sunder_shape_free(disc);
+    if (!fits || sunder_shape_area(is) < least->keep * sunder_shape_area(was)) *kind = SUNDER_CONFLICT_TOO_SMALL;
+    return status;
+}
+
 static sunder_status check_feature(comparison *c, uint32_t f, sunder_error *err)
 {
     const sunder_shape *was = c->was[f], *is = c->after->shape[f];
@@ -91,11 +110,12 @@ static sunder_status check_feature(comparison *c, uint32_t f, sunder_error *err)
     c->translated[f] = there == still && (!there || is_move(c, f, was, is, c->move + 2 * (size_t)f));
     /* If the geometry was repaired on input, the shape as given is not the one written; the move is then not known. */
     if (!c->translated[f] && there && still && sunder_shape_repaired(was)) return SUNDER_OK;
-    if (!c->translated[f])
-        return add_conflict(c, c->before->level_end ? SUNDER_CONFLICT_ALTERED : SUNDER_CONFLICT_NOT_A_TRANSLATE, f,
-                            SIZE_MAX)
-                   ? SUNDER_OK
-                   : sunder_i_failure_cause(err);
+    if (!c->translated[f]) {
+        sunder_conflict_kind kind;
+        const sunder_status status = judge_shape(c, f, &kind, err);
+        if (status) return status;
+        return add_conflict(c, kind, f, SIZE_MAX) ? SUNDER_OK : sunder_i_failure_cause(err);
+    }
     const sunder_i_body *body = &c->model.body[c->model.body_of[f]];
     const double limit = sunder_i_limit_of(body);
     if (sunder_i_is_within_limit(t, limit)) return SUNDER_OK;

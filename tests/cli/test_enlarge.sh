@@ -50,6 +50,7 @@ same "$(jq -c '.enlarged' r.json)" 2 "their number:"
 
 # Without it nothing changes, and a least size alone makes nothing larger.
 expect 0 separate h.gpkg n.csv "${words[@]}" --lco GEOMETRY=AS_WKT --layers main
+expect 0 separate h.gpkg n.gpkg "${words[@]}"
 expect 0 separate h.gpkg m.csv "${words[@]}" --lco GEOMETRY=AS_WKT --layers main --min-size 10
 cmp -s n.csv m.csv || fail "--min-size alone changes the result"
 expect 0 separate h.gpkg z.csv "${words[@]}" --lco GEOMETRY=AS_WKT --layers main --min-size 0.5 --enlarge
@@ -78,6 +79,19 @@ echo '"POLYGON((0 1,4 1,4 5,0 5,0 1))",beside' | cat <(echo WKT,name) - | layer 
 echo '"LINESTRING(-50 0,50 0)",1' | cat <(echo WKT,w) - | layer road.gpkg roads LINESTRING
 expect 0 separate b.gpkg c.gpkg --gap 1 --barrier road.gpkg,width=2 --max-shift 10 --enlarge --min-size 12 --hide --stats c.json
 same "$(box c.gpkg beside)" "-4.0 2.0 8.0 14.0" "beside a road:"
+
+# The check makes the larger shapes again, with the blocks of the result. A feature that kept its shape is too small, and
+# one that was changed otherwise is altered.
+checks=("${words[@]}" --no-blocks --block-field sunder_blk --before h.gpkg)
+expect 0 check o.gpkg -l houses "${checks[@]}" --enlarge --min-size 10 --stats k.json
+same "$(jq -c '[.moves.altered, .moves.too_small, .moves.lost, .moves.worse]' k.json)" '[0,0,0,0]' "the check:"
+expect 3 check o.gpkg -l houses "${checks[@]}" --min-size 10 --stats k.json
+same "$(jq -c '[.moves.altered, .moves.not_a_translate]' k.json)" '[null,5]' "the check without --enlarge:"
+expect 3 check o.gpkg -l houses "${checks[@]}" --enlarge --min-size 9 --stats k.json
+# By itself the house of 5 m has no room for the disc.
+same "$(jq -c '[.moves.altered, .moves.too_small]' k.json)" '[4,1]' "the check with another size:"
+expect 3 check n.gpkg -l houses "${checks[@]}" --enlarge --min-size 10 --stats k.json
+same "$(jq -c '[.moves.altered, .moves.too_small]' k.json)" '[0,5]' "features that are not larger:"
 
 # The same bytes for any number of threads; with a huge least size the block of two is left.
 for threads in 1 4; do

@@ -39,6 +39,22 @@ same "$(jq -c '[.moves.altered, .moves.not_a_translate]' c.json)" '[0,0]' "the c
 expect 3 check r.gpkg -l houses "${checks[@]}" --inset 2 --stats c.json
 same "$(jq -c '.moves.altered' c.json)" 2 "the check with another inset:"
 
+# A house that is hidden and not written keeps the wall that it shared from being an outline. It is lost, and the other
+# one of its block is what it may be.
+{
+    echo "WKT,name,class"
+    echo '"POLYGON((0 0,10 0,10 10,0 10,0 0))",left,1'
+    echo '"POLYGON((10 0,20 0,20 10,10 10,10 0))",right,1'
+    echo '"POLYGON((0 -12,8 -12,8 -2,0 -2,0 -12))",rigid1,0'
+    echo '"POLYGON((17 5,24 5,24 9,17 9,17 5))",rigid2,0'
+} | layer d.gpkg houses POLYGON
+rules=("${words[@]}" --touch-tolerance 0 --inset 1,2 --rigid-where "name LIKE 'rigid%'")
+expect 0 separate d.gpkg dropped.gpkg "${rules[@]}" --hierarchy-field class --hide --drop-hidden
+same "$(value dropped.gpkg left sunder_lvl),$(ogrinfo -q dropped.gpkg houses | grep -c 'right')" "1,0" "a dropped house:"
+case $(wkt dropped.gpkg left) in *"10 1"*"10 9"* | *"10 9"*"10 1"*) ;; *) fail "its wall: $(wkt dropped.gpkg left)" ;; esac
+expect 3 check dropped.gpkg -l houses "${rules[@]}" --no-blocks --block-field sunder_blk --before d.gpkg --stats c.json
+same "$(jq -c '[.moves.altered, .moves.too_small, .moves.lost, .moves.not_a_translate]' c.json)" '[0,0,1,0]' "the check of a dropped house:"
+
 # Fifty rungs; the same bytes for any number of threads.
 many=$(seq -s, 0.05 0.05 2.5)
 expect 0 separate h.gpkg f.csv "${words[@]}" --inset "$many" --lco GEOMETRY=AS_WKT --layers main --threads 1 --stats f.json

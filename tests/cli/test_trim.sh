@@ -53,7 +53,13 @@ ogr2ogr -q planted.gpkg o.gpkg houses -nln houses
 ogrinfo -q planted.gpkg -sql "UPDATE houses SET geom = ST_GeomFromText('POLYGON((4 0,12 0,12 10,4 10,4 0))') WHERE name = 'right'" \
     -dialect SQLite >/dev/null 2>&1
 expect 3 check planted.gpkg -l houses "${checks[@]}" --crossed hide --trim --stats check.json
-same "$(jq -c '.moves.altered' check.json)" 1 "a house that is cut otherwise:"
+same "$(jq -c '[.moves.altered, .moves.too_small]' check.json)" '[1,0]' "a house that is cut otherwise:"
+# Both houses keep 0.85 of their areas, and have room for a disc of 8.5 m.
+for least in "--trim-keep 0.9" "--min-size 8.6"; do
+    # shellcheck disable=SC2086
+    expect 3 check o.gpkg -l houses "${checks[@]}" --crossed hide --trim $least --stats check.json
+    same "$(jq -c '[.moves.altered, .moves.too_small]' check.json)" '[0,2]' "houses that are too small by $least:"
+done
 
 # The same bytes for any number of threads, and formats without fast rows.
 expect 0 separate h.gpkg t.csv "${words[@]}" --hide --trim --crossed hide --threads 1 --lco GEOMETRY=AS_WKT --layers main

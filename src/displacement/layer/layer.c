@@ -148,6 +148,8 @@ sunder_status sunder_layer_set_hiding(sunder_layer *layer, const sunder_hiding_c
     return SUNDER_OK;
 }
 
+void sunder_layer_set_least(sunder_layer *layer, const sunder_trimming *least) { layer->least = *least; }
+
 void sunder_layer_set_crossed(sunder_layer *layer, sunder_crossed crossed) { layer->crossed = crossed; }
 
 /* Checks the levels of feature k: each lies in the shape before it and costs no less. */

@@ -26,6 +26,7 @@ struct sunder_layer {
     int64_t *row;        /* [n] the row of each feature, -1 for none, as the caller gives them; NULL: none are given */
     sunder_hiding_cost *hiding;    /* [n] what it costs to hide each; NULL: none is hidden */
     sunder_crossed crossed;        /* what becomes of features that a barrier's line crosses */
+    sunder_trimming least;         /* what a smaller shape keeps at least */
     sunder_level *level;           /* the smaller shapes that features may have, feature by feature ... */
     size_t *level_end;             /* [n] ... and the index past the last one of each; NULL: there are none */
     const sunder_shape **at_level; /* [n] the shapes that features have now; NULL: those of shape[] */

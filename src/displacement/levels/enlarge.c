@@ -142,7 +142,9 @@ static bool find_radius(workings *w, uint32_t part, double crack, const stretch 
     room.wall = w->wall;
     room.edge = w->edge;
     room.end = w->end;
-    return sunder_i_largest_disc(&room, centre, radius);
+    if (!sunder_i_largest_disc(&room, centre, radius)) return false;
+    sunder_i_disc_climb(&room, *radius / 8, centre, radius);
+    return true;
 }
 
 /* Finds the map of a part; one that changes nothing where it is large enough, up to the precision of discs. */
@@ -305,19 +307,6 @@ static sunder_status enlarge_some(void *context, size_t begin, size_t end, sunde
 
 /* ---- The layer --------------------------------------------------------------------------------------------------- */
 
-/* Numbers the blocks of two features or more by their first features. */
-static void number_blocks(const enlarger *t, int64_t *block)
-{
-    const sunder_i_model *model = &t->blocks.model;
-    for (size_t f = 0; f < t->layer->n; f++) block[f] = -1;
-    for (size_t b = 0; b < model->bodies; b++) {
-        const sunder_i_body *body = &model->body[b];
-        if (sunder_i_is_barrier_body(model, body) || body->members < 2) continue;
-        for (uint32_t m = 0; m < body->members; m++)
-            block[model->member[body->member + m]] = model->member[body->member];
-    }
-}
-
 sunder_status sunder_layer_enlarge(const sunder_layer *layer, const sunder_layer_options *options,
                                    const sunder_enlarging *enlarging, sunder_shape **shape, int64_t *block,
                                    sunder_error *err)
@@ -337,7 +326,7 @@ sunder_status sunder_layer_enlarge(const sunder_layer *layer, const sunder_layer
     if (!status)
         status = sunder_i_parallel(t.blocks.model.rules.threads, t.blocks.model.bodies, SUNDER_I_GRAIN_SHAPES,
                                    enlarge_some, &t, err);
-    if (!status) number_blocks(&t, block);
+    if (!status) sunder_i_blocks_number(&t.blocks, layer->n, block);
     if (status) sunder_i_levels_drop(shape, layer->n);
     sunder_i_blocks_free(&t.blocks);
     sunder_i_free((void *)t.from);

@@ -9,6 +9,7 @@
 #include "base/extremes.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Squares are divided this many times at most, which is enough for SUNDER_I_DISC_PRECISION. */
 enum { DIVISIONS = 10 };
@@ -129,6 +130,25 @@ bool sunder_i_largest_disc(const sunder_i_disc_room *room, double centre[2], dou
     if (ok) *radius = sunder_i_max(0, best.distance);
     sunder_i_free_all(list[0].item, list[1].item);
     return ok;
+}
+
+/* Small steps stop at this part of the first one. */
+#define LAST_STEP 0x1p-20
+
+void sunder_i_disc_climb(const sunder_i_disc_room *room, double step, double centre[2], double *radius)
+{
+    for (const double last = step * LAST_STEP; step > last;) {
+        double best[2] = {centre[0], centre[1]};
+        for (int k = 0; k < 9; k++) {
+            const double at[2] = {centre[0] + (k % 3 - 1) * step, centre[1] + (k / 3 - 1) * step};
+            const double distance = distance_inside(room, at);
+            if (distance <= *radius) continue;
+            *radius = distance;
+            memcpy(best, at, sizeof best);
+        }
+        if (best[0] == centre[0] && best[1] == centre[1]) step /= 2;
+        memcpy(centre, best, sizeof best);
+    }
 }
 
 sunder_status sunder_shape_largest_disc(const sunder_shape *shape, double centre[2], double *radius, sunder_error *err)

@@ -6,13 +6,44 @@
 
 #include <math.h>
 
+/* Sets *out to polygon p of a shape whose corners are doubles. */
+static sunder_status polygon_of(const sunder_shape *shape, uint32_t p, sunder_shape **out, sunder_error *err)
+{
+    const sunder_i_cleaned *c = &shape->form->cleaned;
+    const uint32_t ring = p ? c->poly_end[p - 1] : 0, vertex = ring ? c->ring_end[ring - 1] : 0;
+    const size_t rings = c->poly_end[p] - ring;
+    size_t *end = sunder_i_alloc(rings, sizeof *end);
+    if (!end) return sunder_i_failure_cause(err);
+    for (size_t k = 0; k < rings; k++) end[k] = c->ring_end[ring + k] - vertex;
+    const sunder_status status =
+        sunder_shape_from_rings(shape->xy + 2 * (size_t)vertex, end, &rings, 1, SUNDER_VALIDITY_STRICT, out, err);
+    sunder_i_free(end);
+    return status;
+}
+
+sunder_status sunder_i_disc_fits_polygons(const sunder_shape *shape, const sunder_shape *disc, bool *fits,
+                                          sunder_error *err)
+{
+    const uint32_t polygons = shape->form->cleaned.polygons;
+    sunder_status status = SUNDER_OK;
+    *fits = true;
+    if (polygons < 2 || shape->rational) return sunder_i_fits_in_both(shape, NULL, shape, NULL, disc, fits, err);
+    for (uint32_t p = 0; p < polygons && *fits && !status; p++) {
+        sunder_shape *one = NULL;
+        status = polygon_of(shape, p, &one, err);
+        if (!status) status = sunder_i_fits_in_both(one, NULL, one, NULL, disc, fits, err);
+        sunder_shape_free(one);
+    }
+    return status;
+}
+
 sunder_status sunder_i_level_may_follow(const sunder_shape *before, const sunder_shape *shape, const sunder_shape *disc,
                                         bool *may, sunder_error *err)
 {
     *may = sunder_shape_area(shape) < sunder_shape_area(before);
     sunder_status status = SUNDER_OK;
     if (*may) status = sunder_i_contained(shape, NULL, before, NULL, may, err);
-    if (!status && *may && disc) status = sunder_i_fits_in_both(shape, NULL, shape, NULL, disc, may, err);
+    if (!status && *may && disc) status = sunder_i_disc_fits_polygons(shape, disc, may, err);
     return status;
 }
 
@@ -43,6 +74,28 @@ sunder_status sunder_i_shape_with_corners(const sunder_shape *shape, const doubl
     sunder_i_free(end);
     if (status == SUNDER_EINVALID) return SUNDER_OK;
     return status ? sunder_i_failure_cause(err) : SUNDER_OK;
+}
+
+void sunder_i_blocks_number(const sunder_i_blocks *blocks, size_t n, int64_t *block)
+{
+    const sunder_i_model *model = &blocks->model;
+    for (size_t f = 0; f < n; f++) block[f] = -1;
+    for (size_t b = 0; b < model->bodies; b++) {
+        const sunder_i_body *body = &model->body[b];
+        if (sunder_i_is_barrier_body(model, body) || body->members < 2) continue;
+        for (uint32_t m = 0; m < body->members; m++)
+            block[model->member[body->member + m]] = model->member[body->member];
+    }
+}
+
+sunder_status sunder_layer_blocks(const sunder_layer *layer, const sunder_layer_options *options, int64_t *block,
+                                  sunder_error *err)
+{
+    sunder_i_blocks blocks;
+    const sunder_status status = sunder_i_blocks_find(layer, options, &blocks, err);
+    if (!status) sunder_i_blocks_number(&blocks, layer->n, block);
+    sunder_i_blocks_free(&blocks);
+    return status;
 }
 
 bool sunder_i_level_has_shape(const sunder_layer *layer, size_t f)

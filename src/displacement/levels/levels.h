@@ -12,10 +12,14 @@
  * a per cent. */
 enum { SUNDER_I_ROUND_CORNERS = 32 };
 
-/* May a shape be the level after `before`? It lies in it, exactly, is smaller, and `disc` fits into it (NULL: any).
+/* May a shape be the level after `before`? It lies in it, exactly, is smaller, and `disc` fits into each of its
+ * polygons (NULL: any).
  * Fails with SUNDER_ENOMEM or SUNDER_ECANCEL. */
 sunder_status sunder_i_level_may_follow(const sunder_shape *before, const sunder_shape *shape, const sunder_shape *disc,
                                         bool *may, sunder_error *err);
+/* Sets *fits to whether the disc fits into each polygon of the shape. Fails with SUNDER_ENOMEM or SUNDER_ECANCEL. */
+sunder_status sunder_i_disc_fits_polygons(const sunder_shape *shape, const sunder_shape *disc, bool *fits,
+                                          sunder_error *err);
 /* Sets u to the direction of the longest edge, the first of equal ones. */
 void sunder_i_main_direction(const sunder_shape *shape, double u[2]);
 /* trim_along.c: replaces what trimming leaves of a shape by what one cut along its main direction, or across it,
@@ -44,6 +48,10 @@ typedef struct sunder_i_disc_room {
 #define SUNDER_I_DISC_PRECISION 0x1p-10
 /* Finds the largest disc in the room. Returns false if memory is out. inscribed.c. */
 bool sunder_i_largest_disc(const sunder_i_disc_room *room, double centre[2], double *radius);
+
+/* Improves a disc by small steps, which are halved where none helps, from `step` on. In a long room, whose middle line
+ * is full of discs that are nearly the largest, that finds more than the search in all of it. */
+void sunder_i_disc_climb(const sunder_i_disc_room *room, double step, double centre[2], double *radius);
 
 /* Sets *out to a copy of the shape with its vertices at xy; NULL if it is not valid then. level_blocks.c. Fails with
  * SUNDER_ENOMEM or SUNDER_ESIZE. */
@@ -89,6 +97,8 @@ typedef struct sunder_i_blocks {
 /* Finds them. The caller frees *out, also after a failure; the layer must outlive it. */
 sunder_status sunder_i_blocks_find(const sunder_layer *layer, const sunder_layer_options *options, sunder_i_blocks *out,
                                    sunder_error *err);
+/* Sets block[n] to the block of each feature: the number of its first feature; -1 for a feature in none. */
+void sunder_i_blocks_number(const sunder_i_blocks *blocks, size_t n, int64_t *block);
 void sunder_i_blocks_free(sunder_i_blocks *blocks);
 
 #endif

@@ -153,6 +153,7 @@ void sunder_i_count(sunder_conflict_counts *counts, const sunder_conflict *confl
     case SUNDER_CONFLICT_ROW:
     case SUNDER_CONFLICT_NEEDLESS:
     case SUNDER_CONFLICT_ALTERED:
+    case SUNDER_CONFLICT_TOO_SMALL:
     case SUNDER_CONFLICT_TIGHT: break; /* no conflicts of a layer */
     }
 }
