@@ -25,9 +25,10 @@ layer() { # tag, file, layer, SQL for the class, SQL for the width
     else
         ogr2ogr -f CSV /vsistdout/ "$separated" -lco SEPARATOR=TAB -sql 'SELECT sunder_st, sunder_dx, sunder_dy FROM buildings' \
             >/dev/null # fails early, and with OGR's own words, where the fields are missing
-        if ogrinfo -so "$separated" buildings | grep -q '^sunder_lvl'; then # with --trim: written outlines may be cut
+        if ogrinfo -so "$separated" buildings | grep -q '^sunder_lvl'; then # written outlines may be smaller or larger
             layer old "$town" buildings kind "'0;0'"
-            layer new "$separated" buildings "CASE WHEN sunder_lvl = 1 THEN 'cut' ELSE sunder_st END" 0
+            layer new "$separated" buildings \
+                "CASE WHEN sunder_lvl > 0 THEN 'cut' WHEN sunder_cut < 0 THEN 'larger' ELSE sunder_st END" 0
         else
             # The old outlines: each written feature, moved back by its own move, in the colour of its status.
             layer old "$separated" buildings sunder_st "sunder_dx || ';' || sunder_dy"
@@ -99,7 +100,7 @@ END {
     print "<style>.ground{fill:#f4f1ea}.road{fill:none;stroke:#fff;stroke-linecap:round}" \
         ".b{fill:#c9c4bb;stroke:#6d675e;stroke-width:.8;fill-rule:evenodd;fill-opacity:.85}" \
         ".moved{fill:#5aa899;stroke:#1f5f55}.blocked{fill:#d1495b;stroke:#7a1f2b}.old .moved,.old .blocked{fill:#e0a13e;stroke:#7d4f0c;fill-opacity:.7}" \
-        ".cut{fill:#8f9bc7;stroke:#39477d}.hidden{fill:none;stroke-dasharray:2.5 2}.ghost{fill:none;stroke:#7d4f0c;stroke-width:.8;stroke-dasharray:2.5 2}.fixed,.church,.town_hall,.monument{fill:#59636e;stroke:#2c3238}" \
+        ".cut{fill:#8f9bc7;stroke:#39477d}.larger{fill:#d9c25a;stroke:#6f5f12}.hidden{fill:none;stroke-dasharray:2.5 2}.ghost{fill:none;stroke:#7d4f0c;stroke-width:.8;stroke-dasharray:2.5 2}.fixed,.church,.town_hall,.monument{fill:#59636e;stroke:#2c3238}" \
         ".arrow{fill:none;stroke:#c2410c;stroke-width:1.6}.head{fill:#c2410c}.conflict{fill:none;stroke:#d0006f;stroke-width:2.5}" \
         "text{font:600 18px sans-serif;fill:#33302b;paint-order:stroke;stroke:#f4f1ea;stroke-width:4px}</style>"
     if (pair) { panel("old", "before"); panel("new", "after") } else panel("old", "")

@@ -88,6 +88,14 @@ printf 'main_street\tLINESTRING (-10 6, 100 6)\n' | layer roads LINESTRING 8
 rm -f out.gpkg
 draw cut 74 26 --gap 1 --max-shift 0.6 --hide --trim --crossed hide --barrier scene.gpkg,layer=roads,width=8
 
+# A quarter of an old town at 1:25 000, with the options of the page of the guide.
+sunder-town --buildings 280 --seed 7 old.gpkg >/dev/null
+sunder separate --quiet --allow-conflicts -l buildings --scale 25000 --gap 0.1mm --max-shift 0.3mm --crossed trim \
+    --barrier old.gpkg,layer=roads,width=0.5mm --hide --trim --trim-keep 0.3 --inset 0.05mm,0.1mm --enlarge \
+    --min-size 0.3mm --symbol-size 0.3mm --overwrite old.gpkg out.gpkg
+ogrinfo -q old.gpkg -sql "UPDATE roads SET width = 12.5" >/dev/null
+bash "$source/datasets-synthetic/draw.sh" old.gpkg 451255 5411160 451385 5411262 out.gpkg >"$here/old_town.svg"
+
 # A piece of the town for a map at 1:25 000: roads 0.3 mm wide, 0.1 mm of paper between.
 sunder separate --quiet --allow-conflicts -l buildings --scale 25000 --gap 0.1mm --max-shift 0.4mm \
     --barrier town.gpkg,layer=roads,width=0.3mm --overwrite town.gpkg out.gpkg

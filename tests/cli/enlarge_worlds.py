@@ -53,10 +53,10 @@ def make_world(rng, k, add):
         x, y = stretched(walls[0], walls[-1]), stretched(low, high)
         add([(turned(ring, angle, at), turned([(x(p), y(q)) for p, q in ring], angle, at)) for ring in rings],
             [turned([(x(w), y(low)), (x(w), y(high))], angle, at) for w in walls[1:-1]], angle)
-    left, back = x(walls[0]), y(low) + rng.uniform(0.4, 0.9)
+    left, right, back = x(walls[0]) - 1, x(walls[-1]) + 1, y(low) + rng.uniform(0.4, 0.9)
     if abs(back - low) < 0.3:  # it would touch the terrace as given, and be in its block
         back = low - 0.3
-    ring = turned([(left, back - 12), (left + 14, back - 12), (left + 14, back), (left, back)], angle, at)
+    ring = turned([(left, back - 12), (right, back - 12), (right, back), (left, back)], angle, at)
     add([(ring, ring)], [], angle)
     return turned([(-60, 0), (2600 if k == 0 else 120, 0)], angle, at)
 
