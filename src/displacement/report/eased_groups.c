@@ -122,7 +122,8 @@ static bool gather_prices(const sunder_i_model *model, eased_group *e)
             (sunder_i_task_price){i < j ? i : j,
                                   i < j ? j : i,
                                   {price.linear * (1 - PRICE_ROOM), price.square * (1 - PRICE_ROOM)},
-                                  sunder_i_has_slack(model) ? INFINITY : l->home + MOST_ROOM * (l->home + owed)};
+                                  sunder_i_has_slack(model) ? INFINITY : l->home + MOST_ROOM * (l->home + owed),
+                                  sunder_i_max(0, l->home)};
     }
     return e->price;
 }

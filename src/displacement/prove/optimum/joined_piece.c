@@ -8,7 +8,11 @@
  *
  * Q is made around a place u, like the free regions of [DT15] but the other way round. It begins as a square. As long
  * as a place in it is in none of the sets, it is clipped: across the way from u to the nearest place outside in about
- * that direction. So no side is nearer to u than the nearest way out. */
+ * that direction. So no side is nearer to u than the nearest way out.
+ *
+ * An outline with many corners may need too many clips, or leave Q too many corners. The disc around u as far as the
+ * nearest way out lies in the sets, and shows the same depth. So Q then begins as a polygon around this disc, and at
+ * last as one within the disc, which shows the depth but for half a percent. */
 #include "displacement/prove/optimum/tree.h"
 #include "displacement/prove/optimum/tuning.h"
 
@@ -96,17 +100,39 @@ static void clip_off(const growing *g, sunder_i_region *region, const double pla
                          g->inner->grain);
 }
 
-/* Makes the polygon. Returns false if none was found. */
-static bool grow(const growing *g, double depth, sunder_i_region *region)
+/* Clips the region until it lies in the sets. Returns false if that did not end, or left it too many corners. */
+static bool clip_to_sets(const growing *g, sunder_i_region *region)
 {
-    sunder_i_region_init(region, g->u, sunder_i_min(8 * depth, 2 * g->inner->size));
     for (int round = 0; round < JOINED_ROUNDS && region->n; round++) {
         double gap[2];
-        if (sunder_i_region_is_covered(region, g->inner, NULL, gap, g->steps)) return true;
+        if (sunder_i_region_is_covered(region, g->inner, NULL, gap, g->steps))
+            return region->n <= SUNDER_I_JOINED_CORNERS;
         if (!(fabs(gap[0]) < INFINITY)) return false;
         clip_off(g, region, gap);
     }
     return false;
+}
+
+/* Makes the regular polygon around u whose sides are at the distance `within`. */
+static void init_regular(const growing *g, int sides, double within, sunder_i_region *region)
+{
+    sunder_i_region_init(region, g->u, within);
+    for (int k = 0; k < sides; k++) {
+        const double angle = 6.283185307179586 * k / sides, n[2] = {-cos(angle), -sin(angle)};
+        sunder_i_region_clip(region, n, n[0] * g->u[0] + n[1] * g->u[1] - within, SUNDER_I_NO_CUT, g->inner->grain);
+    }
+}
+
+/* Makes the polygon. Returns false if none was found. */
+static bool grow(const growing *g, double depth, sunder_i_region *region)
+{
+    const double near = depth * (1 - JOINED_ROOM), halved = 3.141592653589793 / SUNDER_I_JOINED_CORNERS;
+    sunder_i_region_init(region, g->u, sunder_i_min(8 * depth, 2 * g->inner->size));
+    if (clip_to_sets(g, region)) return true;
+    init_regular(g, AROUND_DISC, near, region);
+    if (clip_to_sets(g, region)) return true;
+    init_regular(g, SUNDER_I_JOINED_CORNERS, near * cos(halved), region);
+    return clip_to_sets(g, region);
 }
 
 bool sunder_i_join_pieces(const sunder_i_model *model, const sunder_i_forbidden *pieces, uint32_t f, uint32_t g,
@@ -120,7 +146,7 @@ bool sunder_i_join_pieces(const sunder_i_model *model, const sunder_i_forbidden 
     size_t guess = SIZE_MAX;
     if (inner.pieces > 1 && sunder_i_forbidden_is_deeper(&inner, u, 0, &guess)) {
         const double depth = nearest_way_out(&way);
-        if (depth > more) *any = grow(&way, depth, &region) && region.n <= SUNDER_I_JOINED_CORNERS;
+        if (depth > more) *any = grow(&way, depth, &region);
     }
     if (*any) {
         *out = (sunder_i_joined){.f = f, .g = g, .corners = region.n, .blur = region.blur};

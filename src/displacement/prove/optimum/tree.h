@@ -10,12 +10,12 @@
 #include <math.h>
 
 /* A pair of bodies that is left in conflict and eased, by their places in a task's list, i < j, the price of what it
- * lacks, and the most that it may lack, which is more than at the start. A barrier is represented by one of its
- * parts. */
+ * lacks, and the most that it may lack, which is more than at the start. Pieces that are no farther than `deep` from
+ * where the pair may come show how deep it overlaps. A barrier is represented by one of its parts. */
 typedef struct sunder_i_task_price {
     uint32_t i, j;
     sunder_i_price price;
-    double most;
+    double most, deep;
 } sunder_i_task_price;
 
 /* The task: minimise sum w_i |t_i - a_i|^2, and the cost of springs between the bodies, and the prices of what pairs

@@ -81,7 +81,7 @@ static void init_eased(sunder_i_tree *t, uint32_t number)
     const sunder_i_tree_pair *p = sunder_i_tree_find_pair(t, price->i, price->j);
     if (!p) return;
     e->pair = (uint32_t)(p - t->pair);
-    const double far = fabs(p->centre[0]) + fabs(p->centre[1]) + 2 * p->reach;
+    const double far = fabs(p->centre[0]) + fabs(p->centre[1]) + 2 * p->reach + price->deep;
     const uint32_t i = t->body[price->i], j = t->body[price->j];
     bool ok = find_parts(t, price->i, price->j, p->reach, &parts) &&
               sunder_i_forbidden_priced(&e->pieces, model, t->task.waived, i, parts.item, parts.n, far, true) &&

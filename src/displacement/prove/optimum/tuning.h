@@ -5,7 +5,7 @@
 
 /* SUNDER_I_OPTIMUM_TUNING_VERSION is the version of the values below. It is raised with each change of a value, so that
  * a record can name the values by their version (tests/house/TUNING). */
-#define SUNDER_I_OPTIMUM_TUNING_VERSION 6
+#define SUNDER_I_OPTIMUM_TUNING_VERSION 7
 
 /* ---- Contacts (body_contact.c) ----------------------------------------------------------------------------------- */
 
@@ -181,8 +181,10 @@
 
 /* A polygon is clipped in at most JOINED_ROUNDS rounds, each time in a direction that differs by at most JOINED_TURN
  * from that of the place to be left out, at the share JOINED_ROOM before the way out ends. A polygon is made if it
- * shows a depth that is greater by the share DEEPER of the pair's size. */
+ * shows a depth that is greater by the share DEEPER of the pair's size. A polygon around the disc has AROUND_DISC
+ * sides. */
 #define JOINED_ROUNDS 40
+#define AROUND_DISC 16
 #define JOINED_TURN 0.4
 #define JOINED_ROOM 0x1p-13
 #define DEEPER 0x1p-13

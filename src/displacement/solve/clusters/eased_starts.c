@@ -86,6 +86,12 @@ static uint32_t place_in(const sunder_i_list *list, uint32_t body)
     return (uint32_t)sunder_i_lower_bound(&body, list->item, list->n, sizeof body, sunder_i_by_number);
 }
 
+/* About how deep something may lie in the body. */
+static double depth_of(const sunder_i_body *body)
+{
+    return sunder_i_min(body->box[2] - body->box[0], body->box[3] - body->box[1]);
+}
+
 /* Sets the bodies and the prices of the cluster's tree. False if memory is out. */
 static bool gather_task(const sunder_i_model *model, const sunder_i_cluster *c, const sunder_i_eased_starts *starts,
                         sunder_i_list *body, sunder_i_task_price **price, size_t *prices)
@@ -105,9 +111,9 @@ static bool gather_task(const sunder_i_model *model, const sunder_i_cluster *c, 
     *price = ok ? sunder_i_alloc(*prices, sizeof **price) : NULL;
     for (size_t k = 0; k < *prices && *price; k++) {
         const uint32_t p = place_in(body, own[k].a), q = place_in(body, own[k].b);
-        (*price)[k] =
-            (sunder_i_task_price){p < q ? p : q, p < q ? q : p,
-                                  sunder_i_price_of(model, &model->body[own[k].a], &model->body[own[k].b]), INFINITY};
+        (*price)[k] = (sunder_i_task_price){p < q ? p : q, p < q ? q : p,
+                                            sunder_i_price_of(model, &model->body[own[k].a], &model->body[own[k].b]),
+                                            INFINITY, depth_of(&model->body[own[k].a])};
     }
     sunder_i_free(own);
     return *price != NULL;

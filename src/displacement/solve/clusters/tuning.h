@@ -6,7 +6,7 @@
 
 /* SUNDER_I_CLUSTERS_TUNING_VERSION is the version of the values below. It is raised with each change of a value, so
  * that a record can name the values by their version (tests/house/TUNING). */
-#define SUNDER_I_CLUSTERS_TUNING_VERSION 10
+#define SUNDER_I_CLUSTERS_TUNING_VERSION 11
 
 /* ---- Rounds (settle.c, clusters.c) ------------------------------------------------------------------------------- */
 
@@ -190,7 +190,7 @@
  * the share START_NEAR. */
 #define MOST_STARTED 24
 #define MOST_STARTS 8
-#define STARTED_STEPS 1e6
+#define STARTED_STEPS 1.5e6
 #define START_NEAR 0x1p-12
 
 #endif
