@@ -209,7 +209,8 @@ typedef enum sunder_reason {
     SUNDER_REASON_NO_ROOM,    /* proved: no moves solve the pair and all pairs that are not listed, and leave all other
                                * listed pairs no worse than at the start */
     SUNDER_REASON_SAME_BLOCK, /* the two are in one block, and move as one */
-    SUNDER_REASON_KEPT,       /* the two may overlap, since one lies in the other: SUNDER_CONTAINMENT_IGNORE */
+    SUNDER_REASON_KEPT,       /* the two may overlap: one lies in the other (SUNDER_CONTAINMENT_IGNORE), or the feature
+                               * is kept beside a barrier whose line crosses it at the start (SUNDER_CROSSED_KEEP) */
     SUNDER_REASON_UNRESOLVED, /* neither a solution nor one of these proofs was found; see also `crowded` */
     SUNDER_REASON_ROW         /* proved: every solution of the pair and its two blocks alone crosses a side, jumps, or
                                * breaks the rule of rows for the two */
@@ -271,7 +272,8 @@ typedef struct sunder_layer_summary {
     size_t rounded;                 /* moved features with a coordinate that had to be rounded to a double */
     double total, mean, max;        /* lengths of moves; the mean is over all features that moved, blocked or not */
     size_t max_feature;             /* the first feature with the longest move; SIZE_MAX if nothing moved */
-    /* cost is the sum of weight * length^2 over the moves, and of the springs of rows. lower_bound is proved: no
+    /* cost is the sum of weight * length^2 over the moves, of the springs of rows, and of the prices of what pairs lack
+     * (cost_shortfall). lower_bound is proved: no
      * placement costs less that solves every pair that is not listed, leaves no listed pair worse than at the start,
      * and leaves no pair in overlap that is listed as too close. */
     double cost, lower_bound;
@@ -337,7 +339,7 @@ SUNDER_EXPERIMENTAL sunder_status sunder_layer_check_moves(const sunder_layer *b
  * Every move is such that the moved vertices of its feature are doubles exactly, if there is such a move. Otherwise
  * summary.rounded counts the feature, and the rounded vertices are verified. Pairs that remain in conflict are listed,
  * and are no worse than at the start: they are no nearer, and the least translation that separates them is no longer.
- * No other feature moves only to make a remaining conflict smaller.
+ * Features move to make a remaining conflict smaller as far as the price of `ease` pays for it; none with ease 0.
  *
  * Unless allow_jumps is set, no feature jumps over another. Let A be a feature with the anchor a
  * (sunder_shape_anchor()) and the move t. Let B be another feature with the move s that is not ignored, is not in the

@@ -1,5 +1,4 @@
-/* command_stats.c: see command_stats.h. JSON keys are written in the order in which the manual page lists them;
- * scripts may rely on the keys. */
+/* command_stats.c: see command_stats.h. Scripts may rely on the JSON keys. */
 #include "commands/command_stats.h"
 
 #include "base/exit_status.h"

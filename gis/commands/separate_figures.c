@@ -1,5 +1,5 @@
-/* separate_figures.c: the statistics of a separation: JSON for --stats, and the summary on standard output. JSON keys
- * are written in the order in which the manual page lists them; scripts may rely on the keys. */
+/* separate_figures.c: the statistics of a separation: JSON for --stats, and the summary on standard output. Scripts may
+ * rely on the keys of JSON. */
 #include "base/resources.h"
 #include "commands/command_stats.h"
 #include "commands/resolve.h"

@@ -14,7 +14,7 @@ enum {
     GIS_PAIR = 8,
     GIS_BUFFER = 16,
     GIS_ROUTE = 32,
-    GIS_PLAN = 64, /* has the options of separate */
+    GIS_PLAN = 64, /* has the options of separate that parts of a layer can have */
     GIS_MERGE = 128,
     GIS_FOLLOW = 256,
     GIS_LAYERS = GIS_SEPARATE | GIS_CHECK | GIS_PLAN,

@@ -9,7 +9,7 @@
  *   needed          is the option mandatory?
  *   default         text that has the effect of leaving the option out; null: there is none
  *   default_text    the same in the words of --help
- *   group           command, identity, features, output, trouble, running; hidden: not listed in --help
+ *   group           command, identity, features, room, output, trouble, running; hidden: not listed in --help
  *
  * These keys are stable; more may be added. */
 #include "base/json.h"
