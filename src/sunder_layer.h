@@ -273,9 +273,8 @@ typedef struct sunder_layer_summary {
     double total, mean, max;        /* lengths of moves; the mean is over all features that moved, blocked or not */
     size_t max_feature;             /* the first feature with the longest move; SIZE_MAX if nothing moved */
     /* cost is the sum of weight * length^2 over the moves, of the springs of rows, and of the prices of what pairs lack
-     * (cost_shortfall). lower_bound is proved: no
-     * placement costs less that solves every pair that is not listed, leaves no listed pair worse than at the start,
-     * and leaves no pair in overlap that is listed as too close. */
+     * (cost_shortfall). lower_bound is proved: no placement costs less that solves every pair that is not listed,
+     * leaves no listed pair worse than at the start, and leaves no pair in overlap that is listed as too close. */
     double cost, lower_bound;
     /* The bound that the pairs of sunder_report_bound_pairs() prove by their least translations alone. It holds if no
      * feature of these pairs comes to lie in the other. It is not part of lower_bound, which trees prove: they prove a

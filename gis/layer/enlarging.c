@@ -1,19 +1,11 @@
 /* enlarging.c: see enlarging.h. */
 #include "layer/enlarging.h"
+#include "layer/levels.h"
 
 #include "base/core_error.h"
 #include "sunder_hiding.h"
 
 #include <stdlib.h>
-
-/* The features that --rigid-where selects; the caller frees *out. */
-static bool find_rigid(const gis_layer_input *input, bool **out, gis_error *error)
-{
-    const char *where = input->request->rules.rigid_where;
-    *out = calloc(input->n + 1, sizeof **out);
-    if (!*out) return gis_no_memory(error);
-    return !where || gis_source_mark(input->source, "--rigid-where", where, *out, error);
-}
 
 /* Sets shape[] and block[] to the larger shapes, and to the blocks. */
 static bool make_larger(const gis_layer_input *input, const bool *rigid, const sunder_feature *feature,
@@ -29,7 +21,7 @@ static bool make_larger(const gis_layer_input *input, const bool *rigid, const s
     return ok || gis_core_failed(error, "--enlarge", &why);
 }
 
-/* Puts the larger shapes in the place of those as given. */
+/* Replaces each shape that grew by the larger one, and keeps the shape as read in given[]. */
 static void take_larger(gis_layer_input *input, sunder_feature *feature, sunder_shape **shape, const int64_t *block)
 {
     for (size_t i = 0; i < input->n; i++) {
@@ -49,8 +41,8 @@ bool gis_enlarge(gis_layer_input *input, sunder_feature *feature, gis_error *err
     int64_t *block = malloc((input->n + 1) * sizeof *block);
     bool *rigid = NULL;
     input->given = calloc(input->n + 1, sizeof *input->given);
-    const bool ok = ((shape && block && input->given) || gis_no_memory(error)) && find_rigid(input, &rigid, error) &&
-                    make_larger(input, rigid, feature, shape, block, error);
+    const bool ok = ((shape && block && input->given) || gis_no_memory(error)) &&
+                    gis_levels_rigid(input, &rigid, error) && make_larger(input, rigid, feature, shape, block, error);
     if (ok) take_larger(input, feature, shape, block);
     free(rigid);
     free(shape);

@@ -57,8 +57,8 @@ typedef struct gis_layer_input {
     double min_size;       /* likewise; 0 if they have none */
     double tolerance;      /* in units of the layer; negative: the default */
     sunder_shape **shape;  /* [n] NULL: the feature cannot conflict */
-    sunder_shape **given;  /* [n] as read, of those that were made larger since; NULL: none was */
-    size_t enlarged;       /* their number */
+    sunder_shape **given;  /* [n] the shape as read of each enlarged feature, NULL for others; NULL: none */
+    size_t enlarged;       /* the number of features made larger */
     bool blocks_given;     /* blocks are those of the features; none are formed otherwise */
     double *inset;         /* [insets] the lengths of --inset, in units of the layer */
     size_t insets;

@@ -147,14 +147,21 @@ static bool scale(maker *m, gis_error *error)
     return true;
 }
 
-/* Drops the smaller shapes of the features that --rigid-where selects. */
-static bool keep_rigid(const gis_layer_input *input, gis_levels *levels, gis_error *error)
+bool gis_levels_rigid(const gis_layer_input *input, bool **rigid, gis_error *error)
 {
     const char *where = input->request->rules.rigid_where;
+    *rigid = NULL;
     if (!where) return true;
-    bool *rigid = calloc(input->n + 1, sizeof *rigid);
-    const bool ok = rigid ? gis_source_mark(input->source, "--rigid-where", where, rigid, error) : gis_no_memory(error);
-    for (size_t k = 0; ok && k < levels->features; k++) {
+    *rigid = calloc(input->n + 1, sizeof **rigid);
+    return *rigid ? gis_source_mark(input->source, "--rigid-where", where, *rigid, error) : gis_no_memory(error);
+}
+
+/* Drops the smaller shapes of rigid features. */
+static bool keep_rigid(const gis_layer_input *input, gis_levels *levels, gis_error *error)
+{
+    bool *rigid;
+    const bool ok = gis_levels_rigid(input, &rigid, error);
+    for (size_t k = 0; ok && rigid && k < levels->features; k++) {
         if (!rigid[k]) continue;
         for (size_t rung = 0; rung < levels->rungs; rung++) {
             sunder_shape_free(levels->shape[k * levels->rungs + rung]);

@@ -9,6 +9,9 @@
 
 /* Do the rules allow smaller shapes? */
 bool gis_levels_asked(const gis_layer_rules *rules);
+/* Sets *rigid to an array [n] of the features that --rigid-where selects, NULL if it is not given; the caller frees it,
+ * also after a failure. */
+bool gis_levels_rigid(const gis_layer_input *input, bool **rigid, gis_error *error);
 
 /* Makes the smaller shapes of the features of `input`; `layer` has all of them. Clear *out also after a failure. */
 bool gis_levels_make(const gis_layer_input *input, const sunder_layer *layer, gis_levels *out, gis_error *error);

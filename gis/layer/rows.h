@@ -22,7 +22,7 @@ typedef struct gis_feature_row {
     const sunder_shape *other; /* the shape that the feature has instead of its own; NULL: it has its own */
     bool multi;                /* ... which is written as a multipolygon */
     size_t rung;               /* ... and is this one of the run's smaller shapes, from 1 on; 0: its own */
-    double lost;               /* the share of its area that the feature lost */
+    double lost;               /* the share of its area that the feature lost; below 0: gained */
     double size;               /* the diameter of the largest disc in the shape that is written; 0: unknown */
 } gis_feature_row;
 

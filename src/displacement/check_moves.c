@@ -8,8 +8,8 @@
  *
  * A feature of the layer before may have smaller shapes (sunder_layer_set_levels()). If one of them, translated, is the
  * shape of the feature now, pairs are checked with that shape. A feature with none of its shapes is too small if it is
- * less than the least that a smaller shape keeps. Blocks, limits, anchors and rows are always those of the
- * shape as given.
+ * less than the least that a smaller shape keeps. Blocks, limits, anchors and rows are always those of the shape as
+ * given.
  *
  * A feature that is ignored in the layer after alone is hidden: it owes nothing, and nothing is owed to it. It is
  * needless if it would be in no conflict where it stood, moved with its block. */
@@ -85,7 +85,7 @@ static bool is_move(const comparison *c, size_t f, const sunder_shape *was, cons
     return read ? sunder_i_move_between(was, is, t) : sunder_i_move_between_sets(was, is, t);
 }
 
-/* Of which kind is feature f, which is a translate of no shape that it may have? */
+/* Sets *kind to the kind of conflict of feature f, whose shape is a translate of none that it may have. */
 static sunder_status judge_shape(const comparison *c, size_t f, sunder_conflict_kind *kind, sunder_error *err)
 {
     const sunder_shape *was = c->before->shape[f], *is = c->after->shape[f];

@@ -248,7 +248,7 @@ class Layer:
         self.named, self.changed = [], {}
 
     def take(self, names, change):
-        """Returns False if one of these features is changed already."""
+        """Adds a violation, unless it concerns a feature that this layer already changes. Returns whether it was added."""
         if self.changed.keys() & (set(names) | change.keys()):
             return False
         self.named.append(names)

@@ -15,7 +15,7 @@ from osgeo import ogr
 from shapely.geometry import Polygon
 from shapely.ops import unary_union
 
-from trim_worlds import collection, fail, feature, lies_in, turned
+from trim_worlds import collection, demand_kept, fail, feature, lies_in, turned
 
 GAP, LIMIT, INSETS = 3, 0.1, (0.5, 1, 1.5, 2)
 
@@ -128,11 +128,7 @@ def main():
         if not inner or any(max(abs(p[0] - q[0]), abs(p[1] - q[1])) > apart for p, q in inner):
             fail(f"houses {a} and {b}: the corners of their wall differ: {mine}, {its}")
         shared += 1
-    found = subprocess.run([sunder, "check", "inset_o.gpkg", "--input-layer", "inset_houses", "--before",
-                            "inset_houses.gpkg", "--no-blocks", "--block-field", "sunder_blk", "--hidden-field",
-                            "sunder_inv"] + rules, capture_output=True, text=True)
-    if found.returncode:
-        fail(f"the check: {found.stdout}{found.stderr}")
+    demand_kept(sunder, "inset_houses", "inset_o", rules)
     print(f"{worlds} worlds, {counted[0]} houses trimmed, {counted[1]} inset, {shared} walls between smaller houses, "
           f"{stats['hidden']['count']} hidden")
 

@@ -147,6 +147,9 @@ is_null() { [ "$(value "$@")" = '(null)' ]; }
 
 # Prints the value of one field of one feature: value FILE LAYER FID FIELD
 value() { ogrinfo -q -ro "$1" "$2" -fid "$3" | sed -n "s/^  $4 (.*) = //p"; }
+# Of the feature with this name in the layer houses, a field, and the geometry: house FILE NAME FIELD, house_wkt FILE NAME
+house() { ogr2ogr -f CSV /vsistdout/ "$1" houses -where "name = '$2'" -select "$3" -lco STRING_QUOTING=IF_NEEDED | tail -n 1; }
+house_wkt() { ogr2ogr -f CSV /vsistdout/ "$1" houses -where "name = '$2'" -select name -lco GEOMETRY=AS_WKT | tail -n 1; }
 geometry() { ogrinfo -q -ro "$1" "$2" -fid "$3" | grep -E '^  [A-Z]+ .*\('; }
 count() { ogrinfo -ro -so "$1" "$2" | sed -n 's/^Feature Count: //p'; }
 # Prints one value of a JSON text: json .result.area FILE

@@ -6,7 +6,7 @@ mkdir scratch
 export TMPDIR=$work/scratch
 
 "$SUNDER_BUILD/sunder-town" --buildings 6000 --seed 5 town.gpkg >/dev/null || fail "no town is made"
-# Adds blocks of two, some of which have houses streets apart.
+# Adds blocks of two houses. In some blocks the two houses are several streets apart.
 ogr2ogr -q numbered.gpkg town.gpkg -nln buildings -dialect SQLite \
     -sql "select *, case when fid % 60 < 2 then fid / 60 when fid % 97 = 1 then 1000 + fid / 970 end as blk from buildings" &&
     mv numbered.gpkg town.gpkg || fail "blocks are not numbered"

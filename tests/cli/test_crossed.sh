@@ -27,18 +27,17 @@ printf 'WKT,w\n"LINESTRING(-8 3,36 3)",1\n"LINESTRING(95 8,120 8)",1\n"LINESTRIN
 limit=3
 words=(--gap 0.5 --rows no --no-blocks --barrier walls.gpkg --barrier ways.gpkg,width-field=w)
 
-# hides FIGURES FILE OPTIONS...: hidden, their bound, trimmed; value FILE NAME FIELD: of a feature
+# hides FIGURES FILE OPTIONS...: hidden, their bound, trimmed
 hides() {
     expect 3 separate h.gpkg "$2" --overwrite "${words[@]}" --max-shift $limit --hide --hide-weight 1 --stats o.json "${@:3}"
     same "$(jq -c '[.hidden.count, .hidden.lower_bound, .shrunk.trimmed]' o.json)" "$1" "${*:3}:"
     [ "$(jq .verified o.json)" = true ] || fail "${*:3}: not verified"
 }
-value() { ogr2ogr -f CSV /vsistdout/ "$1" houses -where "name = '$2'" -select "$3" -lco STRING_QUOTING=IF_NEEDED | tail -n 1; }
 kept() { ogr2ogr -f CSV /vsistdout/ "$1" houses_conflicts -select fid_a,barr_fid,kind,reason,missing -lco STRING_QUOTING=IF_NEEDED | tail -n +2 | sort | tr '\n' ' '; }
 
 # One of the three, and the house in the area, have no room. All others may stay above the ways.
 hides '[2,2,0]' o.gpkg
-same "$(value o.gpkg area sunder_st),$(value o.gpkg well sunder_st),$(value o.gpkg road sunder_st)" "hidden,unmoved,moved" "the states:"
+same "$(house o.gpkg area sunder_st),$(house o.gpkg well sunder_st),$(house o.gpkg road sunder_st)" "hidden,unmoved,moved" "the states:"
 case $(kept o.gpkg) in *'4,2,barrier,kept, 5,4,barrier,kept, '*) ;; *) fail "the list: $(kept o.gpkg)" ;; esac
 kept o.gpkg | tr ' ' '\n' | grep -qv 'kept,$\|^$' && fail "another reason: $(kept o.gpkg)"
 checks=("${words[@]}" --max-shift 3 --hidden-field sunder_inv --before h.gpkg)
@@ -55,7 +54,7 @@ same "$(jq -c '[.displacement.cost_shortfall, .displacement.cost == .displacemen
 # Cut back at the road, and only there; or also at the footway; or left out.
 limit=0.5
 hides '[2,2,1]' t.gpkg --trim --trim-keep 0.05
-case $(value t.gpkg road sunder_cut) in 0.1* | 0.09*) ;; *) fail "the share lost is $(value t.gpkg road sunder_cut)" ;; esac
+case $(house t.gpkg road sunder_cut) in 0.1* | 0.09*) ;; *) fail "the share lost is $(house t.gpkg road sunder_cut)" ;; esac
 expect 0 separate h.gpkg t.gpkg --overwrite "${words[@]}" --hide --hide-weight 1 --trim --trim-keep 0.05 --crossed trim --max-shift $limit --stats o.json
 same "$(jq -c '.shrunk.trimmed > 3' o.json)" true "--crossed trim:"
 expect 0 separate h.gpkg x.gpkg "${words[@]}" --max-shift 3 --hide --hide-weight 1 --crossed hide --stats o.json

@@ -1,7 +1,7 @@
 # shellcheck shell=bash disable=SC1091
-# --ease: the bound of a large outline with many corners that lies over a net of streets. What it lacks of each street
-# is the depth in a union of dozens of convex pieces, most of which are far from where it stands. The bound comes within
-# a percent of the cost, and an independent checker accepts its proof.
+# --ease: the bound of a large outline with many corners that lies over a net of streets. The outline overlaps each
+# street, and the depth of this overlap is that in a union of dozens of convex pieces. Most pieces are far from the place
+# of the outline. The bound comes within a percent of the cost, and an independent checker accepts its proof.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 command -v jq >/dev/null || { echo "skipped: no jq"; exit 77; }
 

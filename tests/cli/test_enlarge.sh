@@ -17,8 +17,7 @@ command -v jq >/dev/null || { echo "skipped: no jq"; exit 77; }
 } | layer h.gpkg houses MULTIPOLYGON
 words=(--gap 3 --max-shift 10 --rows no)
 
-# value FILE NAME FIELD: the value of a feature; box FILE NAME: its box
-value() { ogr2ogr -f CSV /vsistdout/ "$1" houses -where "name = '$2'" -select "$3" -lco STRING_QUOTING=IF_NEEDED | tail -n 1; }
+# box FILE NAME: the box of a house
 box() {
     ogr2ogr -f CSV /vsistdout/ "$1" -dialect SQLite -sql \
         "select round(MbrMinX(geom),4)||' '||round(MbrMinY(geom),4)||' '||round(MbrMaxX(geom),4)||' '||round(MbrMaxY(geom),4) b from houses where name = '$2'" |
@@ -37,10 +36,10 @@ same "$(box o.gpkg two)" "94.0 -2.5 118.0 7.5" "two squares that would meet grow
 read -r x0 y0 x1 y1 <<<"$(box o.gpkg yard)"
 awk -v w="$(echo "$x1 $x0" | awk '{print $1 - $2}')" 'BEGIN { exit !(w > 30 * 10 / 4.6863 * 0.999 && w < 30 * 10 / 4.6863 * 1.02) }' ||
     fail "a house with a yard: $x0 $y0 $x1 $y1"
-same "$(value o.gpkg left sunder_lvl),$(value o.gpkg left sunder_cut),$(value o.gpkg large sunder_cut)" "0,-1.5,0" "the columns:"
-awk -v is="$(value o.gpkg shed sunder_siz)" 'BEGIN { exit !(is > 9.98 && is <= 10) }' || fail "the size: $(value o.gpkg shed sunder_siz)"
-awk -v is="$(value o.gpkg yard sunder_siz)" 'BEGIN { exit !(is > 9.95 && is < 10.1) }' || fail "the size: $(value o.gpkg yard sunder_siz)"
-same "$(value o.gpkg left sunder_blk),$(value o.gpkg right sunder_blk),$(value o.gpkg shed sunder_blk | tr -d ,)" "1,1," "the blocks:"
+same "$(house o.gpkg left sunder_lvl),$(house o.gpkg left sunder_cut),$(house o.gpkg large sunder_cut)" "0,-1.5,0" "the columns:"
+awk -v is="$(house o.gpkg shed sunder_siz)" 'BEGIN { exit !(is > 9.98 && is <= 10) }' || fail "the size: $(house o.gpkg shed sunder_siz)"
+awk -v is="$(house o.gpkg yard sunder_siz)" 'BEGIN { exit !(is > 9.95 && is < 10.1) }' || fail "the size: $(house o.gpkg yard sunder_siz)"
+same "$(house o.gpkg left sunder_blk),$(house o.gpkg right sunder_blk),$(house o.gpkg shed sunder_blk | tr -d ,)" "1,1," "the blocks:"
 
 # What is rigid keeps its shape, and its block with it; what is fixed or ignored: the one grows and the other does not.
 expect 0 separate h.gpkg r.gpkg "${words[@]}" --enlarge --min-size 10 --rigid-where "name = 'left'" --stats r.json \
@@ -67,9 +66,9 @@ same "$(jq -c '[.conflicts.before.overlap, .moved]' q.json)" '[1,2]' "two sheds:
 expect 0 separate p.gpkg q.gpkg --overwrite --gap 3 --max-shift 1 --enlarge --min-size 10 --hide --stats q.json
 same "$(jq -c '[.hidden.count, .hidden.weight, .enlarged]' q.json)" '[1,3,2]' "one of them has to go, and weighs what it did:"
 for name in a b; do
-    case $(value q.gpkg "$name" sunder_inv) in
-    1) same "$(value q.gpkg "$name" sunder_siz | cut -c1-4),$(value q.gpkg "$name" sunder_cut)" "3,0" "hidden:" ;;
-    *) same "$(value q.gpkg "$name" sunder_lvl)" 0 "visible:" ;;
+    case $(house q.gpkg "$name" sunder_inv) in
+    1) same "$(house q.gpkg "$name" sunder_siz | cut -c1-4),$(house q.gpkg "$name" sunder_cut)" "3,0" "hidden:" ;;
+    *) same "$(house q.gpkg "$name" sunder_lvl)" 0 "visible:" ;;
     esac
 done
 

@@ -12,21 +12,17 @@ command -v jq >/dev/null || { echo "skipped: no jq"; exit 77; }
 } | layer h.gpkg houses POLYGON
 words=(--gap 3 --max-shift 0 --rows no)
 
-# value FILE NAME FIELD: the value of a feature
-value() { ogr2ogr -f CSV /vsistdout/ "$1" houses -where "name = '$2'" -select "$3" -lco STRING_QUOTING=IF_NEEDED | tail -n 1; }
-wkt() { ogr2ogr -f CSV /vsistdout/ "$1" houses -where "name = '$2'" -select name -lco GEOMETRY=AS_WKT | tail -n 1; }
-
 # The opposite house moves in by 1 m: its own outline loses less than the two together.
 expect 0 separate h.gpkg o.gpkg "${words[@]}" --inset 1,2 --stats o.json
 same "$(jq -c '[.shrunk.trimmed, .shrunk.inset, .shrunk.lower_bound == .shrunk.area_lost]' o.json)" '[0,1,true]' "inset:"
-same "$(value o.gpkg opposite sunder_lvl),$(value o.gpkg left sunder_lvl)" "1,0" "the rungs:"
-case $(wkt o.gpkg opposite) in *"19 -3"*) ;; *) fail "the shape: $(wkt o.gpkg opposite)" ;; esac
+same "$(house o.gpkg opposite sunder_lvl),$(house o.gpkg left sunder_lvl)" "1,0" "the rungs:"
+case $(house_wkt o.gpkg opposite) in *"19 -3"*) ;; *) fail "the shape: $(house_wkt o.gpkg opposite)" ;; esac
 grep -q '^inset 1, weight times' out || fail "the summary: $(cat out)"
 
 # If that one may not change, the two do, and their wall stays.
 expect 0 separate h.gpkg r.gpkg "${words[@]}" --inset 1,2 --rigid-where "name = 'opposite'" --stats r.json
-same "$(value r.gpkg left sunder_lvl),$(value r.gpkg right sunder_lvl)" "1,1" "a rigid house:"
-case $(wkt r.gpkg left) in *"10 1"*"10 9"* | *"10 9"*"10 1"*) ;; *) fail "the wall: $(wkt r.gpkg left)" ;; esac
+same "$(house r.gpkg left sunder_lvl),$(house r.gpkg right sunder_lvl)" "1,1" "a rigid house:"
+case $(house_wkt r.gpkg left) in *"10 1"*"10 9"* | *"10 9"*"10 1"*) ;; *) fail "the wall: $(house_wkt r.gpkg left)" ;; esac
 
 # A rung is not offered where the least size does not fit: 6 m by 18 m are left with 2 m.
 expect 3 separate h.gpkg m.gpkg "${words[@]}" --inset 2 --min-size 6.5
@@ -50,8 +46,8 @@ same "$(jq -c '.moves.altered' c.json)" 2 "the check with another inset:"
 } | layer d.gpkg houses POLYGON
 rules=("${words[@]}" --touch-tolerance 0 --inset 1,2 --rigid-where "name LIKE 'rigid%'")
 expect 0 separate d.gpkg dropped.gpkg "${rules[@]}" --hierarchy-field class --hide --drop-hidden
-same "$(value dropped.gpkg left sunder_lvl),$(ogrinfo -q dropped.gpkg houses | grep -c 'right')" "1,0" "a dropped house:"
-case $(wkt dropped.gpkg left) in *"10 1"*"10 9"* | *"10 9"*"10 1"*) ;; *) fail "its wall: $(wkt dropped.gpkg left)" ;; esac
+same "$(house dropped.gpkg left sunder_lvl),$(ogrinfo -q dropped.gpkg houses | grep -c 'right')" "1,0" "a dropped house:"
+case $(house_wkt dropped.gpkg left) in *"10 1"*"10 9"* | *"10 9"*"10 1"*) ;; *) fail "its wall: $(house_wkt dropped.gpkg left)" ;; esac
 expect 3 check dropped.gpkg -l houses "${rules[@]}" --no-blocks --block-field sunder_blk --before d.gpkg --stats c.json
 same "$(jq -c '[.moves.altered, .moves.too_small, .moves.lost, .moves.not_a_translate]' c.json)" '[0,0,1,0]' "the check of a dropped house:"
 

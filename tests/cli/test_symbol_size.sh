@@ -14,18 +14,14 @@ command -v jq >/dev/null || { echo "skipped: no jq"; exit 77; }
 } | layer h.gpkg houses POLYGON
 words=(--gap 3 --max-shift 0 --rows no --rigid-where "name LIKE 'rigid%'")
 
-# value FILE NAME FIELD: the value of a feature
-value() { ogr2ogr -f CSV /vsistdout/ "$1" houses -where "name = '$2'" -select "$3" -lco STRING_QUOTING=IF_NEEDED | tail -n 1; }
-wkt() { ogr2ogr -f CSV /vsistdout/ "$1" houses -where "name = '$2'" -select name -lco GEOMETRY=AS_WKT | tail -n 1; }
-
 expect 0 separate h.gpkg o.gpkg "${words[@]}" --symbol-size 4 --stats o.json
 same "$(jq -c '[.shrunk.trimmed, .shrunk.inset, .shrunk.scaled, .shrunk.symbols]' o.json)" '[0,0,1,1]' "the figures:"
-same "$(value o.gpkg scaled sunder_lvl),$(value o.gpkg square sunder_lvl),$(value o.gpkg far sunder_lvl)" "2,3,0" "the rungs:"
+same "$(house o.gpkg scaled sunder_lvl),$(house o.gpkg square sunder_lvl),$(house o.gpkg far sunder_lvl)" "2,3,0" "the rungs:"
 grep -q '^scaled 1, symbols 1, weight' out || fail "the summary: $(cat out)"
-case $(wkt o.gpkg square) in *"103 3"*"107 7"* | *"107 7"*"103 3"*) ;; *) fail "the square: $(wkt o.gpkg square)" ;; esac
+case $(house_wkt o.gpkg square) in *"103 3"*"107 7"* | *"107 7"*"103 3"*) ;; *) fail "the square: $(house_wkt o.gpkg square)" ;; esac
 # The sizes that are written are not above the true ones, and hardly below them.
 for name in scaled:6 square:4 far:10 rigid1:10; do
-    size=$(value o.gpkg "${name%:*}" sunder_siz)
+    size=$(house o.gpkg "${name%:*}" sunder_siz)
     awk -v is="$size" -v of="${name#*:}" 'BEGIN { exit !(is <= of * (1 + 1e-9) && is >= of * 0.995) }' ||
         fail "the size of ${name%:*} is $size"
 done

@@ -14,17 +14,14 @@ command -v jq >/dev/null || { echo "skipped: no jq"; exit 77; }
 { echo "WKT,k"; echo '"LINESTRING(0 -50,0 80)",1'; } | layer road.gpkg road LINESTRING
 words=(--gap 0.5 --max-shift 0.25 --rows no --barrier road.gpkg,width=6)
 
-# value FILE NAME FIELD: the value of a feature
-value() { ogr2ogr -f CSV /vsistdout/ "$1" houses -where "name = '$2'" -select "$3" -lco STRING_QUOTING=IF_NEEDED | tail -n 1; }
-
 expect 0 separate h.gpkg o.gpkg "${words[@]}" --hide --hide-weight 1 --trim --crossed hide --stats o.json
 same "$(jq -c '[.hidden.count, .hidden.lower_bound, .shrunk.trimmed]' o.json)" '[1,1,2]' "two can be cut:"
 same "$(jq -c '.shrunk.lower_bound == .shrunk.area_lost' o.json)" true "the bound of what is lost:"
-same "$(value o.gpkg on sunder_st),$(value o.gpkg on sunder_lvl)" "hidden,0" "the house on the road:"
-same "$(value o.gpkg right sunder_lvl),$(value o.gpkg left sunder_lvl),$(value o.gpkg far sunder_lvl)" "1,1,0" "the levels:"
+same "$(house o.gpkg on sunder_st),$(house o.gpkg on sunder_lvl)" "hidden,0" "the house on the road:"
+same "$(house o.gpkg right sunder_lvl),$(house o.gpkg left sunder_lvl),$(house o.gpkg far sunder_lvl)" "1,1,0" "the levels:"
 grep -q '^trimmed 2, ' out || fail "the summary: $(cat out)"
 # A share of 0.15 is lost: the house loses 1.5 m of its 10 m.
-case $(value o.gpkg right sunder_cut) in 0.15*) ;; *) fail "the share lost is $(value o.gpkg right sunder_cut)" ;; esac
+case $(house o.gpkg right sunder_cut) in 0.15*) ;; *) fail "the share lost is $(house o.gpkg right sunder_cut)" ;; esac
 
 # The house that the road crosses is cut only if that is asked for and it keeps enough; then nothing is hidden. --trim
 # alone hides nothing, ever.
@@ -39,9 +36,9 @@ same "$(jq -c '[.hidden.count, .shrunk.trimmed]' alone.json)" '[0,2]' "without -
 expect 0 separate h.gpkg m.gpkg "${words[@]}" --hide --hide-weight 1 --trim --crossed hide --min-size 9 --stats m.json
 same "$(jq -c '[.hidden.count, .shrunk.trimmed]' m.json)" '[3,0]' "a least size:"
 expect 0 separate h.gpkg r.gpkg "${words[@]}" --hide --hide-weight 1 --trim --crossed hide --rigid-where "name = 'right'" --stats r.json
-same "$(value r.gpkg right sunder_st),$(value r.gpkg left sunder_lvl)" "hidden,1" "a rigid house:"
+same "$(house r.gpkg right sunder_st),$(house r.gpkg left sunder_lvl)" "hidden,1" "a rigid house:"
 expect 0 separate h.gpkg c.gpkg "${words[@]}" --hide --hierarchy-field class --trim --crossed hide
-same "$(value c.gpkg left sunder_st),$(value c.gpkg left sunder_lvl)" "unmoved,1" "a house that is never hidden is cut:"
+same "$(house c.gpkg left sunder_st),$(house c.gpkg left sunder_lvl)" "unmoved,1" "a house that is never hidden is cut:"
 
 # The check makes the smaller shapes again. A feature with another shape is altered.
 checks=("${words[@]}" --no-blocks --block-field sunder_blk --hidden-field sunder_inv --before h.gpkg)

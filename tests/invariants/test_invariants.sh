@@ -1,7 +1,6 @@
 # shellcheck shell=bash
 # Runs the tests of the library in a build without NDEBUG, so that its assertions and checkers run
-# (src/base/invariant.h). The longest random tests, of the label `thorough`, are left
-# to the build without assertions.
+# (src/base/invariant.h). The longest random tests, of the label `thorough`, are left to the build without assertions.
 set -eu
 build=$SUNDER_BUILD/invariants
 cmake -S "$SUNDER_SOURCE" -B "$build" -DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_FLAGS=-O2 -DCMAKE_C_FLAGS_DEBUG= \

@@ -5,8 +5,8 @@
  *             choose the cheapest levels such that each clause has a member with a greater one
  *     until   no conflict remains that a clause can be made of
  *
- * In the first rounds all features have their smallest shapes. So only hiding can satisfy a clause that they
- * add. In the later rounds shapes are as given, and the clauses say which features have to become smaller.
+ * In the first rounds all features have their smallest shapes. So only hiding can satisfy a clause of theirs. In the
+ * later rounds shapes are as given, and the clauses say which features have to become smaller.
  *
  * A proof that features have no solution together with their levels holds with lesser levels, too, since each shape of
  * a feature lies in the one before. It holds whatever else is hidden or becomes smaller, since blocks, limits, anchors,

@@ -1,7 +1,6 @@
 /* Features that a barrier's line crosses at home, such as a house above a passage. If the layer keeps them, such a pair
  * owes no distance: it may not stand worse than at home, like a pair that is left in conflict. Lines and points of a
- * barrier count, and areas do not. What a line meets is the interior of the shape as given, before it was
- * made larger. */
+ * barrier count, and areas do not. The line has to meet the interior of the shape as read, before it grew. */
 #include "displacement/layer/model.h"
 
 #include "separation/separation.h"

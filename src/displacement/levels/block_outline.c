@@ -10,7 +10,7 @@
  * exactly. Two members that share a wall are cut by zones of the same sides, so the wall stays shared. */
 #include "displacement/levels/block_outline.h"
 
-#include "base/extremes.h"
+#include "displacement/levels/edges.h"
 
 #include <math.h>
 #include <string.h>
@@ -143,12 +143,10 @@ static double distance_to(const double p[2], const edge *e, bool *beside)
 static bool is_inside(const sunder_shape *shape, const double p[2])
 {
     bool inside = false;
-    edge e;
     for (uint32_t v = 0; v < shape->vertices; v++) {
-        edge_of(shape, v, 0, &e);
-        if ((e.from[1] > p[1]) == (e.to[1] > p[1])) continue;
-        const double x = e.from[0] + (e.to[0] - e.from[0]) * ((p[1] - e.from[1]) / (e.to[1] - e.from[1]));
-        if (p[0] < x) inside = !inside;
+        double e[4];
+        sunder_i_edge_of(shape, v, e);
+        inside ^= sunder_i_ray_crosses(p, e);
     }
     return inside;
 }

@@ -1,8 +1,8 @@
 /* The parts of a block. Polygons hang together if one lies in another one, or if they are no farther apart than the
  * touch tolerance. All of this is in doubles: it decides what grows about one point. */
-#include "displacement/levels/levels.h"
+#include "displacement/levels/block_parts.h"
 
-#include "base/extremes.h"
+#include "displacement/levels/edges.h"
 
 #include <math.h>
 
@@ -25,12 +25,11 @@ static double cross(const double a[2], const double b[2], const double c[2])
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-static double distance_to_point(const double e[4], const double p[2])
+static double distance_to_point(const double edge[4], const double p[2])
 {
-    const double u[2] = {e[2] - e[0], e[3] - e[1]}, w[2] = {p[0] - e[0], p[1] - e[1]};
-    const double at = (u[0] * w[0] + u[1] * w[1]) / (u[0] * u[0] + u[1] * u[1]),
-                 t = sunder_i_max(0, sunder_i_min(1, at));
-    return hypot(w[0] - t * u[0], w[1] - t * u[1]);
+    double off[2];
+    sunder_i_off_edge(edge, p, off);
+    return hypot(off[0], off[1]);
 }
 
 static bool are_edges_near(const double a[4], const double b[4], double tolerance)
@@ -51,8 +50,7 @@ static bool begins_inside(const sunder_i_block_polygon *p, const sunder_i_block_
     for (uint32_t v = q->vertex; v < q->end; v++) {
         double e[4];
         sunder_i_edge_of(q->shape, v, e);
-        if ((e[1] > at[1]) != (e[3] > at[1]) && at[0] < e[0] + (e[2] - e[0]) * ((at[1] - e[1]) / (e[3] - e[1])))
-            inside = !inside;
+        inside ^= sunder_i_ray_crosses(at, e);
     }
     return inside;
 }
@@ -86,8 +84,8 @@ static bool hang_together(const sunder_i_block_polygon *p, const sunder_i_block_
     return begins_inside(p, q) || begins_inside(q, p);
 }
 
-/* Gives polygon k and all that hang together with it, directly or not, the part. They move to the front of those from
- * index k on. Returns the index past the last one. */
+/* Assigns `part` to polygon k and to every polygon that is connected to it, directly or through others. The polygons of
+ * the part are moved to the indices from k on. Returns the index past the last one. */
 static size_t take_part(sunder_i_block_polygon *polygon, size_t k, size_t n, double tolerance, uint32_t part)
 {
     size_t end = k + 1;

@@ -10,6 +10,9 @@
  * All vertices of a part are mapped by the same affine map, so members that share a vertex still share it. The parts of
  * a feature may meet when each of them has grown; then the block grows as if it were one part. */
 #include "displacement/levels/block_outline.h"
+#include "displacement/levels/block_parts.h"
+#include "displacement/levels/edges.h"
+#include "displacement/levels/inscribed.h"
 #include "displacement/levels/levels.h"
 
 #include "base/extremes.h"

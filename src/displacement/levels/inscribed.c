@@ -4,12 +4,11 @@
  * the point moves. So in a square of half diagonal r around x it is at most f(x) + r. Squares are divided into four,
  * all of a size at a time, and those that cannot hold a better point are dropped, until a square holds hardly more than
  * its centre does. */
-#include "displacement/levels/levels.h"
+#include "displacement/levels/inscribed.h"
 
-#include "base/extremes.h"
+#include "displacement/levels/edges.h"
 
 #include <math.h>
-#include <string.h>
 
 /* Squares are divided this many times at most, which is enough for SUNDER_I_DISC_PRECISION. */
 enum { DIVISIONS = 10 };
@@ -25,31 +24,21 @@ typedef struct squares {
     size_t n, room;
 } squares;
 
-/* The distance from p to a segment. */
-static double distance_to(const double p[2], const double *segment)
+static double distance_to_nearest(const double p[2], const double *edge, size_t n)
 {
-    const double *a = segment, *b = segment + 2;
-    const double u[2] = {b[0] - a[0], b[1] - a[1]}, w[2] = {p[0] - a[0], p[1] - a[1]};
-    const double t = (u[0] * w[0] + u[1] * w[1]) / (u[0] * u[0] + u[1] * u[1]);
-    const double on = sunder_i_max(0, sunder_i_min(1, t)), off[2] = {w[0] - on * u[0], w[1] - on * u[1]};
-    return off[0] * off[0] + off[1] * off[1];
-}
-
-static double distance_to_nearest(const double p[2], const double *segment, size_t n)
-{
-    double least = INFINITY;
-    for (size_t k = 0; k < n; k++) least = sunder_i_min(least, distance_to(p, segment + 4 * k));
+    double least = INFINITY; /* its square */
+    for (size_t k = 0; k < n; k++) {
+        double off[2];
+        sunder_i_off_edge(edge + 4 * k, p, off);
+        least = sunder_i_min(least, off[0] * off[0] + off[1] * off[1]);
+    }
     return sqrt(least);
 }
 
 static bool is_within(const double p[2], const double *edge, size_t n)
 {
     bool inside = false;
-    for (size_t k = 0; k < n; k++) {
-        const double *a = edge + 4 * k, *b = a + 2;
-        if ((a[1] > p[1]) != (b[1] > p[1]) && p[0] < a[0] + (b[0] - a[0]) * ((p[1] - a[1]) / (b[1] - a[1])))
-            inside = !inside;
-    }
+    for (size_t k = 0; k < n; k++) inside ^= sunder_i_ray_crosses(p, edge + 4 * k);
     return inside;
 }
 

@@ -1,5 +1,6 @@
 /* What convex polygons leave of a shape: named cases, and random ones asked at random points. */
 #include "shape/difference.h"
+#include "simple_polygon.h"
 
 #include "base/random.h"
 
@@ -15,15 +16,6 @@
 enum { CORNERS = 9, CUTS = 4 };
 
 static double unit(uint64_t *stream) { return (double)(sunder_i_draw(stream) >> 11) * 0x1p-53; }
-
-static sunder_shape *polygon(const double *xy, size_t n)
-{
-    sunder_shape *shape;
-    sunder_error err;
-    const size_t one = 1;
-    assert_int_equal(sunder_shape_from_rings(xy, &n, &one, 1, SUNDER_VALIDITY_STRICT, &shape, &err), SUNDER_OK);
-    return shape;
-}
 
 static sunder_shape *without(const sunder_shape *shape, double *xy, size_t *end, size_t n)
 {
@@ -51,7 +43,7 @@ static void check_squares(void **state)
                  {{-5, 5, 5, -5, 15, 5, 5, 15}, 0, 0},     /* corners of the square touch the sides of the cut */
                  {{0, 5, 5, 0, 10, 5, 5, 10}, 12.5, 3},    /* four equal corners are left: the first one */
                  {{-2, 4, 2, 4, 2, 6, -2, 6}, 96, 8}};     /* a notch */
-    sunder_shape *shape = polygon(square, 4);
+    sunder_shape *shape = simple_polygon(square, 4);
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         double cut[8];
         size_t end = 4;
@@ -106,7 +98,7 @@ static void check_random(void **state)
             draw_polygon(&stream, true, at, cut + 2 * n, corners);
             end[k] = n += corners;
         }
-        sunder_shape *shape = polygon(xy, CORNERS), *left = without(shape, cut, end, cuts);
+        sunder_shape *shape = simple_polygon(xy, CORNERS), *left = without(shape, cut, end, cuts);
         for (int k = 0; left && k < 50; k++) {
             size_t corners;
             const double *ring = sunder_shape_ring(left, 0, 0, &corners);

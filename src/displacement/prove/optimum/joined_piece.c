@@ -21,6 +21,8 @@
 #include <math.h>
 #include <string.h>
 
+#define TURN 6.28318530717958647692
+
 typedef struct growing {
     const sunder_i_forbidden *inner; /* the sets to be joined, not grown */
     double u[2];
@@ -75,7 +77,7 @@ static double shorten_way(const growing *g, double turn, double *angle)
 
 static double nearest_way_out(const growing *g)
 {
-    const double step = 6.283185307179586 / SUNDER_I_TREE_RAYS;
+    const double step = TURN / SUNDER_I_TREE_RAYS;
     double least = INFINITY, angle = 0;
     for (int k = 0; k < SUNDER_I_TREE_RAYS; k++) {
         const double out = way_out(g, k * step);
@@ -118,7 +120,7 @@ static void init_regular(const growing *g, int sides, double within, sunder_i_re
 {
     sunder_i_region_init(region, g->u, within);
     for (int k = 0; k < sides; k++) {
-        const double angle = 6.283185307179586 * k / sides, n[2] = {-cos(angle), -sin(angle)};
+        const double angle = TURN * k / sides, n[2] = {-cos(angle), -sin(angle)};
         sunder_i_region_clip(region, n, n[0] * g->u[0] + n[1] * g->u[1] - within, SUNDER_I_NO_CUT, g->inner->grain);
     }
 }
@@ -126,7 +128,7 @@ static void init_regular(const growing *g, int sides, double within, sunder_i_re
 /* Makes the polygon. Returns false if none was found. */
 static bool grow(const growing *g, double depth, sunder_i_region *region)
 {
-    const double near = depth * (1 - JOINED_ROOM), halved = 3.141592653589793 / SUNDER_I_JOINED_CORNERS;
+    const double near = depth * (1 - JOINED_ROOM), halved = TURN / 2 / SUNDER_I_JOINED_CORNERS;
     sunder_i_region_init(region, g->u, sunder_i_min(8 * depth, 2 * g->inner->size));
     if (clip_to_sets(g, region)) return true;
     init_regular(g, AROUND_DISC, near, region);

@@ -1,4 +1,5 @@
 /* Blocks made larger: named cases with boxes known by hand. */
+#include "simple_polygon.h"
 #include "sunder_hiding.h"
 
 #include <math.h>
@@ -12,16 +13,7 @@
 
 enum { MOST = 3 };
 
-static sunder_shape *polygon(const double *xy, size_t n)
-{
-    sunder_shape *shape;
-    sunder_error err;
-    const size_t one = 1;
-    assert_int_equal(sunder_shape_from_rings(xy, &n, &one, 1, SUNDER_VALIDITY_STRICT, &shape, &err), SUNDER_OK);
-    return shape;
-}
-
-/* Makes the layer of these features larger, with a gap of 3 and a touch tolerance of 0.3. */
+/* Calls sunder_layer_enlarge() for a layer of these n features; the gap is 3, so the touch tolerance is 0.3. */
 static sunder_status enlarge(sunder_shape *const *feature, const int64_t *block, size_t n, const sunder_enlarging *how,
                              sunder_shape **out, int64_t *number)
 {
@@ -84,7 +76,7 @@ static void check_single_features(void **state)
          6},
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
-        sunder_shape *shape = polygon(cases[k].xy, cases[k].n), *out;
+        sunder_shape *shape = simple_polygon(cases[k].xy, cases[k].n), *out;
         int64_t block;
         const sunder_enlarging how = {8, NULL};
         print_message("%s\n", cases[k].name);
@@ -107,7 +99,7 @@ static void check_blocks(void **state)
     (void)state;
     const double a[] = {0, 0, 5.3, 0, 5.3, 4, 0, 4}, b[] = {5.3, 0, 30, 0, 30, 4, 5.3, 4},
                  far[] = {40, 0, 44, 0, 44, 4, 40, 4};
-    sunder_shape *shape[] = {polygon(a, 4), polygon(b, 4), polygon(far, 4)}, *out[MOST];
+    sunder_shape *shape[] = {simple_polygon(a, 4), simple_polygon(b, 4), simple_polygon(far, 4)}, *out[MOST];
     int64_t block[MOST];
     sunder_enlarging how = {8, NULL};
     assert_int_equal(enlarge(shape, NULL, 3, &how, out, block), SUNDER_OK);
@@ -160,7 +152,7 @@ static void check_refusals(void **state)
 {
     (void)state;
     const double xy[] = {0, 0, 5, 0, 5, 5, 0, 5};
-    sunder_shape *shape = polygon(xy, 4), *out;
+    sunder_shape *shape = simple_polygon(xy, 4), *out;
     int64_t block;
     static const double wrong[] = {0, -1, INFINITY, NAN};
     for (size_t k = 0; k < 4; k++) {
@@ -169,7 +161,7 @@ static void check_refusals(void **state)
     }
     assert_int_equal(enlarge(&shape, NULL, 1, &(sunder_enlarging){1.7e308, NULL}, &out, &block), SUNDER_OK);
     sunder_shape_free(out);
-    sunder_shape *thin = polygon((const double[]){1.5e308, 0, 1.7e308, 0, 1.7e308, 1, 1.5e308, 1}, 4);
+    sunder_shape *thin = simple_polygon((const double[]){1.5e308, 0, 1.7e308, 0, 1.7e308, 1, 1.5e308, 1}, 4);
     assert_int_equal(enlarge(&thin, NULL, 1, &(sunder_enlarging){1.7e308, NULL}, &out, &block), SUNDER_ERANGE);
     assert_null(out);
     sunder_shape_free(thin);

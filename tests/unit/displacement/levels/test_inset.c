@@ -1,5 +1,6 @@
 /* Blocks with their outlines moved in: named cases with areas known by hand. */
 #include "sunder_hiding.h"
+#include "simple_polygon.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -11,15 +12,6 @@
 #include <cmocka.h>
 
 enum { MOST = 3 };
-
-static sunder_shape *polygon(const double *xy, size_t n)
-{
-    sunder_shape *shape;
-    sunder_error err;
-    const size_t one = 1;
-    assert_int_equal(sunder_shape_from_rings(xy, &n, &one, 1, SUNDER_VALIDITY_STRICT, &shape, &err), SUNDER_OK);
-    return shape;
-}
 
 /* Moves the outline of the block of these features in by each length. */
 static void inset(sunder_shape *const *feature, size_t n, double tolerance, const sunder_inset *how, sunder_shape **out)
@@ -61,7 +53,7 @@ static void check_single_polygons(void **state)
     const double one = 1;
     const sunder_inset how = {&one, 1, 0};
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
-        sunder_shape *shape = polygon(cases[k].xy, cases[k].n), *left;
+        sunder_shape *shape = simple_polygon(cases[k].xy, cases[k].n), *left;
         inset(&shape, 1, -1, &how, &left);
         const double area = left ? sunder_shape_area(left) : 0;
         if (cases[k].area >= 0 && fabs(area - cases[k].area) > 1e-9) fail_msg("%s: %.17g is left", cases[k].name, area);
@@ -80,13 +72,13 @@ static void check_blocks(void **state)
                  part[] = {2, 2, 4, 2, 4, 10, 2, 10};
     const double lengths[] = {1, 2};
     const sunder_inset how = {lengths, 2, 0};
-    sunder_shape *house[MOST] = {polygon(a, 4), polygon(b, 4), NULL}, *left[2 * MOST];
+    sunder_shape *house[MOST] = {simple_polygon(a, 4), simple_polygon(b, 4), NULL}, *left[2 * MOST];
     inset(house, 2, 0, &how, left);
     assert_true(fabs(sunder_shape_area(left[0]) - 9 * 8) < 1e-9 && fabs(sunder_shape_area(left[3]) - 8 * 6) < 1e-9);
     free_all(left, 4);
     sunder_shape_free(house[1]);
 
-    house[1] = polygon(apart, 4); /* walls that gape: inner within the tolerance */
+    house[1] = simple_polygon(apart, 4); /* walls that gape: inner within the tolerance */
     inset(house, 2, 0.2, &how, left);
     assert_true(fabs(sunder_shape_area(left[0]) - 9 * 8) < 1e-9 && fabs(sunder_shape_area(left[2]) - 9 * 8) < 1e-9);
     free_all(left, 4);
@@ -95,14 +87,14 @@ static void check_blocks(void **state)
     free_all(left, 4);
     sunder_shape_free(house[1]);
 
-    house[1] = polygon(lower, 4); /* a wall that is longer on one side: its ends are outline */
+    house[1] = simple_polygon(lower, 4); /* a wall that is longer on one side: its ends are outline */
     inset(house, 2, 0, &how, left);
     assert_true(fabs(sunder_shape_area(left[2]) - 9 * 4) < 1e-9);
     assert_true(fabs(sunder_shape_area(left[0]) - (9 * 8 - 2 * 2)) < 1e-9);
     free_all(left, 4);
     sunder_shape_free(house[1]);
 
-    house[1] = polygon(part, 4); /* inside of the other one, up to its outline */
+    house[1] = simple_polygon(part, 4); /* inside of the other one, up to its outline */
     inset(house, 2, 0, &how, left);
     assert_true(fabs(sunder_shape_area(left[0]) - 8 * 8) < 1e-9 && fabs(sunder_shape_area(left[2]) - 2 * 7) < 1e-9);
     free_all(left, 4);
@@ -115,7 +107,7 @@ static void check_conditions(void **state)
     (void)state;
     const double a[] = {0, 0, 10, 0, 10, 10, 0, 10}, half[] = {0, 0, 5, 0, 5, 10, 0, 10};
     const double lengths[] = {1, 2, 2.4}, wrong[] = {1, 1}, negative = -1;
-    sunder_shape *house = polygon(a, 4), *from = polygon(half, 4), *left[3];
+    sunder_shape *house = simple_polygon(a, 4), *from = simple_polygon(half, 4), *left[3];
     const sunder_feature feature = {.shape = house, .weight = 1, .max_shift = INFINITY, .block = -1};
     sunder_layer *layer;
     sunder_layer_options options;

@@ -1,5 +1,6 @@
 /* Scaled features and squares, and the largest disc in a shape: named cases known by hand. */
 #include "sunder_hiding.h"
+#include "simple_polygon.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -8,15 +9,6 @@
 #include <stdint.h>
 
 #include <cmocka.h>
-
-static sunder_shape *polygon(const double *xy, size_t n)
-{
-    sunder_shape *shape;
-    sunder_error err;
-    const size_t one = 1;
-    assert_int_equal(sunder_shape_from_rings(xy, &n, &one, 1, SUNDER_VALIDITY_STRICT, &shape, &err), SUNDER_OK);
-    return shape;
-}
 
 static void check_discs(void **state)
 {
@@ -30,7 +22,7 @@ static void check_discs(void **state)
                  {{0, 0, 12, 0, 12, 4, 4, 4, 4, 12, 0, 12}, 2.3431457505, 6}, /* an L: against its inner corner */
                  {{1e6, 5e6, 1e6 + 7, 5e6 + 7, 1e6, 5e6 + 14, 1e6 - 7, 5e6 + 7}, 4.9497474683, 4}};
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
-        sunder_shape *shape = polygon(cases[k].xy, cases[k].n);
+        sunder_shape *shape = simple_polygon(cases[k].xy, cases[k].n);
         double at[2], radius;
         sunder_error err;
         assert_int_equal(sunder_shape_largest_disc(shape, at, &radius, &err), SUNDER_OK);
@@ -46,7 +38,7 @@ static void check_rungs(void **state)
     const double square[] = {0, 0, 10, 0, 10, 10, 0, 10}, beside[] = {10, 0, 20, 0, 20, 10, 10, 10},
                  u[] = {40, 0, 60, 0, 60, 20, 55, 20, 55, 5, 45, 5, 45, 20, 40, 20};
     const double factor[] = {0.8, 0.6};
-    sunder_shape *shape[] = {polygon(square, 4), polygon(u, 8), polygon(beside, 4)}, *out[9];
+    sunder_shape *shape[] = {simple_polygon(square, 4), simple_polygon(u, 8), simple_polygon(beside, 4)}, *out[9];
     sunder_feature feature[3];
     sunder_layer *layer;
     sunder_layer_options options;
