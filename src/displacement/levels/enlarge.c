@@ -35,6 +35,11 @@ typedef struct stretch {
     double middle[2], u[2], along, across;
 } stretch;
 
+/* The polygons of a part, which are neighbours in the list of polygons. */
+typedef struct part_range {
+    size_t begin, end;
+} part_range;
+
 /* Scratch of one thread. */
 typedef struct workings {
     sunder_i_block_outline outline;
@@ -55,12 +60,11 @@ typedef struct turned_box {
 } turned_box;
 
 /* Writes the convex hull of a part to w->hull, relative to `origin`, and returns the number of corners. */
-static size_t hull_of(workings *w, uint32_t part, double origin[2])
+static size_t hull_of(workings *w, const part_range *part, double origin[2])
 {
     size_t n = 0;
-    for (size_t k = 0; k < w->parts.n; k++) {
+    for (size_t k = part->begin; k < part->end; k++) {
         const sunder_i_block_polygon *p = &w->parts.polygon[k];
-        if (p->part != part) continue;
         if (!sunder_i_reserve(&w->point, &w->point_room, 2 * (n + p->end - p->vertex), sizeof *w->point)) return 0;
         if (n == 0) memcpy(origin, p->shape->xy + 2 * (size_t)p->vertex, 2 * sizeof *origin);
         for (uint32_t v = p->vertex; v < p->end; v++, n++)
@@ -89,7 +93,7 @@ static void box_along(const double *hull, size_t n, const double u[2], turned_bo
 }
 
 /* Finds the box of the least width among those that have an edge of the hull on one side, the first of equal ones. */
-static bool find_box(workings *w, uint32_t part, turned_box *best)
+static bool find_box(workings *w, const part_range *part, turned_box *best)
 {
     double origin[2] = {0, 0};
     const size_t n = hull_of(w, part, origin);
@@ -118,40 +122,66 @@ static void to_box(const stretch *s, const double edge[4], double out[4])
     }
 }
 
-/* Finds the radius of the largest disc in a part that was stretched by *s. */
-static bool find_radius(workings *w, uint32_t part, double crack, const stretch *s, double *radius)
+/* Writes the sides of the outline near a part, stretched, to w->wall, and returns their number. The others are those of
+ * other parts. */
+static size_t list_walls(workings *w, const part_range *part, double crack, const stretch *s)
 {
-    sunder_i_disc_room room = {.walls = w->outline.n, .crack = crack};
-    size_t edges = 0;
-    double centre[2];
-    if (!sunder_i_reserve(&w->wall, &w->wall_room, 4 * w->outline.n, sizeof *w->wall) ||
-        !sunder_i_reserve(&w->end, &w->end_room, w->parts.n, sizeof *w->end))
-        return false;
+    double box[4];
+    size_t walls = 0;
+    sunder_i_box_clear(box);
+    for (size_t k = part->begin; k < part->end; k++)
+        for (int c = 0; c < 4; c += 2) sunder_i_box_include(box, w->parts.polygon[k].box + c);
+    sunder_i_box_grow(box, crack, box);
     for (size_t k = 0; k < w->outline.n; k++) {
         const double *a = w->outline.side[k].from, *b = w->outline.side[k].to;
-        to_box(s, (const double[4]){a[0], a[1], b[0], b[1]}, w->wall + 4 * k);
+        double around[4];
+        sunder_i_box_clear(around);
+        sunder_i_box_include(around, a);
+        sunder_i_box_include(around, b);
+        if (sunder_i_box_meet(around, box)) to_box(s, (const double[4]){a[0], a[1], b[0], b[1]}, w->wall + 4 * walls++);
     }
-    for (size_t k = 0; k < w->parts.n; k++) {
+    return walls;
+}
+
+/* Writes the edges of a part's polygons, stretched, to w->edge, and where those of each end to w->end. Returns false if
+ * memory is out. */
+static bool list_edges(workings *w, const part_range *part, const stretch *s)
+{
+    size_t edges = 0;
+    for (size_t k = part->begin; k < part->end; k++) {
         const sunder_i_block_polygon *p = &w->parts.polygon[k];
-        if (p->part != part) continue;
         if (!sunder_i_reserve(&w->edge, &w->edge_room, 4 * (edges + p->end - p->vertex), sizeof *w->edge)) return false;
         for (uint32_t v = p->vertex; v < p->end; v++, edges++) {
             double edge[4];
             sunder_i_edge_of(p->shape, v, edge);
             to_box(s, edge, w->edge + 4 * edges);
         }
-        w->end[room.members++] = edges;
+        w->end[k - part->begin] = edges;
     }
-    room.wall = w->wall;
-    room.edge = w->edge;
-    room.end = w->end;
+    return true;
+}
+
+/* Finds the radius of the largest disc in a part that was stretched by *s. */
+static bool find_radius(workings *w, const part_range *part, double crack, const stretch *s, double *radius)
+{
+    const size_t members = part->end - part->begin;
+    double centre[2];
+    if (!sunder_i_reserve(&w->wall, &w->wall_room, 4 * w->outline.n, sizeof *w->wall) ||
+        !sunder_i_reserve(&w->end, &w->end_room, members, sizeof *w->end) || !list_edges(w, part, s))
+        return false;
+    const sunder_i_disc_room room = {.walls = list_walls(w, part, crack, s),
+                                     .wall = w->wall,
+                                     .edge = w->edge,
+                                     .end = w->end,
+                                     .members = members,
+                                     .crack = crack};
     if (!sunder_i_largest_disc(&room, centre, radius)) return false;
     sunder_i_disc_climb(&room, *radius / 8, centre, radius);
     return true;
 }
 
 /* Finds the map of a part; one that changes nothing where it is large enough, up to the precision of discs. */
-static bool find_map(workings *w, uint32_t part, double crack, double least, stretch *map)
+static bool find_map(workings *w, const part_range *part, double crack, double least, stretch *map)
 {
     turned_box box;
     double radius;
@@ -192,9 +222,11 @@ static bool find_maps(workings *w, double crack, double least, bool *any)
 {
     *any = false;
     if (!sunder_i_reserve(&w->map, &w->map_room, w->parts.parts, sizeof *w->map)) return false;
-    for (uint32_t part = 0; part < w->parts.parts; part++) {
-        if (!find_map(w, part, crack, least, &w->map[part])) return false;
-        *any = *any || grows(&w->map[part]);
+    for (part_range part = {0, 0}; part.begin < w->parts.n; part.begin = part.end) {
+        const uint32_t number = w->parts.polygon[part.begin].part;
+        while (part.end < w->parts.n && w->parts.polygon[part.end].part == number) part.end++;
+        if (!find_map(w, &part, crack, least, &w->map[number])) return false;
+        *any = *any || grows(&w->map[number]);
     }
     return true;
 }
@@ -208,7 +240,7 @@ static bool unite_parts(workings *w)
         most = sunder_i_max(most, sunder_i_max(w->map[part].along, w->map[part].across));
     for (size_t k = 0; k < w->parts.n; k++) w->parts.polygon[k].part = 0;
     w->parts.parts = 1;
-    if (!find_box(w, 0, &box)) return false;
+    if (!find_box(w, &(part_range){0, w->parts.n}, &box)) return false;
     w->map[0] = (stretch){{box.middle[0], box.middle[1]}, {box.u[0], box.u[1]}, most, most};
     return true;
 }
