@@ -86,7 +86,7 @@ SUNDER_EXPERIMENTAL sunder_status sunder_layer_blocks(const sunder_layer *layer,
                                                       int64_t *block, sunder_error *err);
 
 /* Says that features of the layer were made larger. shape: [n] the shapes that they had before, NULL for a feature that
- * has the same; copied, but the shapes remain the caller's and must outlive the layer. NULL: none was made larger.
+ * has the same; copied, but the shapes remain the caller's and must outlive the layer. NULL: no feature was enlarged.
  * These shapes decide on which sides of barriers features stand, and which a barrier crosses. Fails with
  * SUNDER_ENOMEM. */
 SUNDER_EXPERIMENTAL sunder_status sunder_layer_set_originals(sunder_layer *layer, const sunder_shape *const *shape,

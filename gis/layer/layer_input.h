@@ -59,7 +59,7 @@ typedef struct gis_layer_input {
     sunder_shape **shape;  /* [n] NULL: the feature cannot conflict */
     sunder_shape **given;  /* [n] the shape as read of each enlarged feature, NULL for others; NULL: none */
     size_t enlarged;       /* the number of features made larger */
-    bool blocks_given;     /* blocks are those of the features; none are formed otherwise */
+    bool blocks_given;     /* feature[].block decides alone; no blocks are formed by touching */
     double *inset;         /* [insets] the lengths of --inset, in units of the layer */
     size_t insets;
     double symbol_size;      /* in units of the layer; 0 if it is not given */

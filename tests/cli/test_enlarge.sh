@@ -41,7 +41,7 @@ awk -v is="$(house o.gpkg shed sunder_siz)" 'BEGIN { exit !(is > 9.98 && is <= 1
 awk -v is="$(house o.gpkg yard sunder_siz)" 'BEGIN { exit !(is > 9.95 && is < 10.1) }' || fail "the size: $(house o.gpkg yard sunder_siz)"
 same "$(house o.gpkg left sunder_blk),$(house o.gpkg right sunder_blk),$(house o.gpkg shed sunder_blk | tr -d ,)" "1,1," "the blocks:"
 
-# What is rigid keeps its shape, and its block with it; what is fixed or ignored: the one grows and the other does not.
+# A rigid feature and its block keep their shapes. A fixed feature grows, and an ignored one does not.
 expect 0 separate h.gpkg r.gpkg "${words[@]}" --enlarge --min-size 10 --rigid-where "name = 'left'" --stats r.json \
     --fixed-where "name = 'shed'" --ignore-where "name = 'yard'"
 same "$(box r.gpkg right) / $(box r.gpkg shed) / $(box r.gpkg yard)" "5.0 0.0 22.0 4.0 / 36.5 -3.5 46.5 6.5 / 200.0 0.0 230.0 30.0" "rigid, fixed, ignored:"

@@ -16,8 +16,8 @@ struct sunder_layer {
     const sunder_shape **shape;    /* [n] */
     uint32_t *demand;              /* [n] the index of each feature's demands in `demands`; NULL: all have the first */
     sunder_feature *demands;       /* features without their shapes, one for each run */
-    const sunder_shape **original; /* [n] the shapes of features before they were made larger, NULL for those that were
-                                    * not; NULL: none was */
+    const sunder_shape **original; /* [n] the shape of each enlarged feature before it grew, NULL for other features;
+                                    * NULL: no feature was enlarged */
     size_t n;
     sunder_barrier *barrier;
     size_t barriers;

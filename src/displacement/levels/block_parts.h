@@ -20,8 +20,8 @@ typedef struct sunder_i_block_parts {
     uint32_t parts;
 } sunder_i_block_parts;
 
-/* Finds those of a body whose members have the shapes shape[f], by feature, in doubles; what `out` holds is replaced.
- * Returns false if memory is out. */
+/* Finds the polygons and parts of a body whose members have the shapes shape[f], by feature, in doubles. What `out`
+ * holds is replaced. Returns false if memory is out. */
 bool sunder_i_block_parts_find(const sunder_i_model *model, const sunder_i_body *body, const sunder_shape *const *shape,
                                double tolerance, sunder_i_block_parts *out);
 

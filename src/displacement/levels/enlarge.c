@@ -122,8 +122,8 @@ static void to_box(const stretch *s, const double edge[4], double out[4])
     }
 }
 
-/* Writes the sides of the outline near a part, stretched, to w->wall, and returns their number. The others are those of
- * other parts. */
+/* Writes the sides of the outline near a part, stretched, to w->wall, and returns their number. Sides farther away
+ * belong to other parts. */
 static size_t list_walls(workings *w, const part_range *part, double crack, const stretch *s)
 {
     double box[4];
