@@ -358,8 +358,6 @@ bool gis_resolve_layer(const gis_options *options, gis_layer_input_request *out,
         .drawn = options->given[OPT_REPORT],
         .may_have_symbols = (gis_option_table[OPT_SYMBOL].commands & options->command->bit) != 0,
     };
-    if (out->symbol_size_field && !out->symbol && !out->symbol_field)
-        return gis_fail_usage(error, "--symbol-size-field: there is no symbol; give --symbol or --symbol-field");
     return resolve_invalid(options, &out->invalid, error) && resolve_rules(options, &out->rules, error) &&
            check_before(options, error) && resolve_barriers(options, out, error) &&
            resolve_least_gaps(options, out, error);

@@ -6,6 +6,7 @@
 #include "base/spelling.h"
 
 #include <float.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -259,20 +260,31 @@ static bool check_shard(const gis_options *out, gis_error *error)
            gis_fail_usage(error, "sunder separate --shard K takes one operand, PLAN; `sunder plan` makes one");
 }
 
-/* Refuses an option that says how another one works, which is not given. */
+/* Refuses an option that needs one of several others, of those that the command has. */
+static bool refuse_alone(const gis_options *out, const gis_option *option, const gis_need *need, gis_error *error)
+{
+    char names[256];
+    size_t length = 0, left = 0;
+    for (size_t k = 0; k < need->n; k++) left += (gis_option_table[need->one_of[k]].commands & out->command->bit) != 0;
+    for (size_t k = 0; k < need->n; k++) {
+        const gis_option *other = &gis_option_table[need->one_of[k]];
+        if (!(other->commands & out->command->bit)) continue;
+        const char *separator = --left == 0 ? "" : left == 1 ? " or " : ", ";
+        const int written =
+            snprintf(names + length, sizeof names - length, "%.*s%s", name_length(other), other->names, separator);
+        length += (size_t)written;
+    }
+    return gis_fail_usage(error, "%.*s needs %s", name_length(option), option->names, names);
+}
+
+/* Refuses an option that says how others work, if none of them is given. */
 static bool check_needs(const gis_options *out, gis_error *error)
 {
-    static const gis_option_id needs[][2] = {
-        {OPT_OVERWRITE_LAYER, OPT_UPDATE},
-        {OPT_DIALECT, OPT_SQL},
-        {OPT_DROP_HIDDEN, OPT_HIDE},
-        {OPT_ENLARGE, OPT_MIN_SIZE},
-    };
-    for (size_t i = 0; i < sizeof needs / sizeof *needs; i++) {
-        const gis_option *one = &gis_option_table[needs[i][0]], *other = &gis_option_table[needs[i][1]];
-        if (out->given[one->id] && !out->given[other->id])
-            return gis_fail_usage(error, "%.*s needs %.*s", name_length(one), one->names, name_length(other),
-                                  other->names);
+    for (int i = 0; i < OPT_N; i++) {
+        const gis_need *need = out->given[i] ? gis_option_need((gis_option_id)i) : NULL;
+        bool met = !need;
+        for (size_t k = 0; need && k < need->n; k++) met = met || out->given[need->one_of[k]];
+        if (!met) return refuse_alone(out, &gis_option_table[i], need, error);
     }
     return true;
 }

@@ -82,7 +82,7 @@ typedef enum gis_option_type {
 typedef enum gis_option_group {
     GIS_GROUP_OWN,
     GIS_GROUP_IDENTITY, /* listed in the section of GIS_GROUP_OWN */
-    GIS_GROUP_ROOM, /* what happens to features that cannot be given room */
+    GIS_GROUP_ROOM,     /* what happens to features that cannot be given room */
     GIS_GROUP_INPUT,
     GIS_GROUP_OUTPUT,
     GIS_GROUP_TROUBLE,
@@ -104,6 +104,17 @@ typedef struct gis_option {
 
 /* The table of options, indexed by gis_option_id; the order is that of --help. */
 extern const gis_option gis_option_table[OPT_N];
+
+/* The most options that may give another one its meaning. */
+enum { GIS_MOST_NEEDED = 6 };
+/* An option that says how others work, and means nothing unless one of them is given. */
+typedef struct gis_need {
+    gis_option_id option;
+    size_t n;
+    gis_option_id one_of[GIS_MOST_NEEDED]; /* [n]; a command may have some of them only */
+} gis_need;
+/* Returns what an option needs, NULL if it needs none. */
+const gis_need *gis_option_need(gis_option_id option);
 
 /* May the option be repeated, each time with one more value? (A flag may be repeated, too, without effect.) */
 bool gis_option_is_list(const gis_option *option);

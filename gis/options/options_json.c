@@ -7,6 +7,7 @@
  *   metavar         the word that stands for a value in --help, or null
  *   repeatable      may the option be repeated, with one more value each time?
  *   needed          is the option mandatory?
+ *   needs           options of which one has to be given with it; none: the option has a meaning by itself
  *   default         text that has the effect of leaving the option out; null: there is none
  *   default_text    the same in the words of --help
  *   group           command, identity, features, room, output, trouble, running; hidden: not listed in --help
@@ -76,7 +77,19 @@ static bool is_typed(const gis_option *option)
     return text && (option->type == GIS_TYPE_CHOICE || gis_length_parse_number(text, strlen(text), &number));
 }
 
-static void put_option(gis_json *out, const gis_option *option)
+static void put_needs(gis_json *out, const gis_command *command, const gis_option *option)
+{
+    const gis_need *need = gis_option_need(option->id);
+    gis_json_key(out, "needs");
+    gis_json_open(out, '[');
+    for (size_t k = 0; need && k < need->n; k++) {
+        const gis_option *other = &gis_option_table[need->one_of[k]];
+        if (other->commands & command->bit) put_piece(out, other->names, strcspn(other->names, " "));
+    }
+    gis_json_close(out, ']');
+}
+
+static void put_option(gis_json *out, const gis_command *command, const gis_option *option)
 {
     gis_json_open(out, '{');
     gis_json_key(out, "name");
@@ -88,6 +101,7 @@ static void put_option(gis_json *out, const gis_option *option)
     gis_json_put_string(out, "metavar", option->metavar);
     gis_json_put_bool(out, "repeatable", gis_option_is_list(option));
     gis_json_put_bool(out, "needed", gis_option_is_needed(option));
+    put_needs(out, command, option);
     gis_json_put_string(out, "default", is_typed(option) ? option->fallback : NULL);
     gis_json_put_string(out, "default_text", option->fallback);
     gis_json_put_string(out, "group", groups[option->group]);
@@ -127,7 +141,7 @@ static void put_command(gis_json *out, const gis_command *command)
     for (int i = 0; i < OPT_N; i++) {
         if (!(gis_option_table[i].commands & command->bit)) continue;
         gis_json_line(out);
-        put_option(out, &gis_option_table[i]);
+        put_option(out, command, &gis_option_table[i]);
     }
     gis_json_close(out, ']');
     gis_json_close(out, '}');

@@ -3,6 +3,27 @@
 
 #define OWN GIS_GROUP_OWN
 
+static const gis_need needs[] = {
+    {OPT_OVERWRITE_LAYER, 1, {OPT_UPDATE}},
+    {OPT_DIALECT, 1, {OPT_SQL}},
+    {OPT_HIERARCHY_FIELD, 2, {OPT_HIDE, OPT_HIDDEN_FIELD}},
+    {OPT_HIDE_WEIGHT, 1, {OPT_HIDE}},
+    {OPT_DROP_HIDDEN, 1, {OPT_HIDE}},
+    {OPT_TRIM_KEEP, 1, {OPT_TRIM}},
+    {OPT_MIN_SIZE, 4, {OPT_TRIM, OPT_INSET, OPT_ENLARGE, OPT_SYMBOL_SIZE}},
+    {OPT_ENLARGE, 1, {OPT_MIN_SIZE}},
+    {OPT_RIGID_WHERE, 4, {OPT_TRIM, OPT_INSET, OPT_ENLARGE, OPT_SYMBOL_SIZE}},
+    {OPT_CROSSED, 6, {OPT_HIDE, OPT_HIDDEN_FIELD, OPT_TRIM, OPT_INSET, OPT_ENLARGE, OPT_SYMBOL_SIZE}},
+    {OPT_SYMBOL_SIZE_FIELD, 2, {OPT_SYMBOL, OPT_SYMBOL_FIELD}},
+};
+
+const gis_need *gis_option_need(gis_option_id option)
+{
+    for (size_t i = 0; i < sizeof needs / sizeof *needs; i++)
+        if (needs[i].option == option) return &needs[i];
+    return NULL;
+}
+
 const gis_option gis_option_table[OPT_N] = {
     [OPT_GAP] = {OPT_GAP, "--gap", GIS_TYPE_LENGTH, GIS_LAYERS | GIS_PAIR | GIS_ROUTE, OWN, "LENGTH", "0",
                  "least distance between features, in units of the layer"},

@@ -5,7 +5,7 @@ import json
 import re
 import sys
 
-KEYS = ["name", "aliases", "kind", "values", "metavar", "repeatable", "needed", "default", "default_text", "group", "help"]
+KEYS = ["name", "aliases", "kind", "values", "metavar", "repeatable", "needed", "needs", "default", "default_text", "group", "help"]
 KINDS = {"flag", "text", "layer", "field", "sql", "statement", "shape", "point", "dataset", "output", "file", "format", "crs",
          "enum", "enums", "length", "integer", "number", "scale", "box", "flag_or_enum", "barrier", "setting"}
 GROUPS = {"command", "identity", "room", "features", "output", "trouble", "running", "hidden"}

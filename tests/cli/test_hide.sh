@@ -21,9 +21,10 @@ command -v jq >/dev/null || { echo "skipped: no jq"; exit 77; }
     echo '"POLYGON((28.5 -1,29 -1,29 11,28.5 11,28.5 -1))",4'
     echo '"LINESTRING(105 -50,105 50)",5'
 } | layer walls.gpkg walls GEOMETRY
-words=(--gap 0.5 --max-shift 3 --rows no --no-blocks --barrier walls.gpkg --crossed hide)
+plain=(--gap 0.5 --max-shift 3 --rows no --no-blocks --barrier walls.gpkg)
+words=("${plain[@]}" --crossed hide)
 
-expect 3 separate h.gpkg plain.gpkg "${words[@]}" --stats plain.json
+expect 3 separate h.gpkg plain.gpkg "${plain[@]}" --stats plain.json
 [ "$(jq .hidden plain.json)" = null ] || fail "figures of hidden features, though none are wanted"
 ogrinfo -q plain.gpkg | grep -q hidden && fail "a layer of hidden features, though none are wanted"
 
@@ -52,7 +53,7 @@ for said in 'What is left out, and why' '<th scope="row">2</th><td class="number
     '<td>proved</td><td><bdi>FID 2</bdi>, ' '<td>proved</td><td><bdi>walls:5</bdi></td>' '<span class="what">hidden</span>'; do
     grep -qF "$said" h.html || fail "the page lacks $said"
 done
-expect 3 separate h.gpkg p.gpkg --overwrite "${words[@]}" --report plain.html
+expect 3 separate h.gpkg p.gpkg --overwrite "${plain[@]}" --report plain.html
 grep -q 'id="hidden"' plain.html && fail "a section about hidden features, though none are wanted"
 
 # Six turned houses in a pen that holds four: without effort there is no proof for all, and the layer says so.
@@ -84,7 +85,7 @@ ogr2ogr -q planted.gpkg c.gpkg houses -sql "SELECT * FROM houses" -nln houses
 ogrinfo -q planted.gpkg -sql "UPDATE houses SET sunder_inv = 1 WHERE name IN ('far', 'right')" >/dev/null
 expect 3 check planted.gpkg -l houses "${checks[@]}" --stats planted.json
 same "$(jq -c '[.moves.needless, .skipped]' planted.json)" '[1,3]' "planted:"
-expect 3 check c.gpkg -l houses "${words[@]}" --before h.gpkg
+expect 3 check c.gpkg -l houses "${plain[@]}" --before h.gpkg
 
 # Refused calls, and wrong classes.
 usage() { expect 2 "${@:2}" && grep -q -- "$1" err || fail "$*: $(cat err)"; }

@@ -99,5 +99,5 @@ X
         --symbol-size-field k
 done
 refused 1 'no field kk' separate sizes.gpkg never.gpkg --symbol disc:1 --symbol-size-field kk
-refused 2 'there is no symbol' separate sizes.gpkg never.gpkg --symbol-size-field k
+refused 2 '--symbol-size-field needs --symbol or --symbol-field' separate sizes.gpkg never.gpkg --symbol-size-field k
 finish

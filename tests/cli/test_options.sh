@@ -23,6 +23,62 @@ while IFS=$'\t' read -r words command option status said; do
     [[ $said =~ $words ]] || fail "$command $option: not '$words', but '$said'"
 done <asked
 
+# An option that says how others work is refused without them: by itself, but not beside any of those. The list is of all
+# such options; "check" has some of the others only.
+json '.commands[] | .name as $command | .options[] | select(.needs != [])
+    | [$command, .name, if .kind == "flag" then .name elif .values then .name + "=" + .values[0] else .name + "=1" end] + .needs | @tsv' \
+    options.json | grep -v '^plan' >alone
+same "$(cut -f 1,2,4- alone | tr '\t' ' ')" "separate --hierarchy-field --hide
+separate --hide-weight --hide
+separate --drop-hidden --hide
+separate --trim-keep --trim
+separate --min-size --trim --inset --enlarge --symbol-size
+separate --enlarge --min-size
+separate --rigid-where --trim --inset --enlarge --symbol-size
+separate --crossed --hide --trim --inset --enlarge --symbol-size
+separate --symbol-size-field --symbol --symbol-field
+separate --dialect --sql
+separate --overwrite-layer --update
+check --hierarchy-field --hidden-field
+check --trim-keep --trim
+check --min-size --trim --inset --enlarge --symbol-size
+check --enlarge --min-size
+check --rigid-where --trim --inset --enlarge --symbol-size
+check --crossed --hidden-field --trim --inset --enlarge --symbol-size
+check --symbol-size-field --symbol --symbol-field
+check --dialect --sql
+check --overwrite-layer --update
+sum --dialect --sql
+sum --overwrite-layer --update
+pair --dialect --sql
+pair --overwrite-layer --update
+buffer --dialect --sql
+buffer --overwrite-layer --update
+route --dialect --sql
+route --overwrite-layer --update
+follow --dialect --sql
+follow --overwrite-layer --update" 'options that need others:'
+while IFS=$'\t' read -r command option words needs; do
+    operands="a b"
+    [ "$command" = follow ] && operands+=" c"
+    listed=${needs//$'\t'/, }
+    case $listed in *,*) listed="${listed%, *} or ${listed##*, }" ;; esac
+    printf '%s\t%s\n' "$option needs $listed" "$command $operands $words"
+    for other in $needs; do
+        case $other in --hide | --trim | --enlarge | --update) ;; *) other+==1 ;; esac
+        printf '!%s needs\t%s\n' "$option" "$command $operands $words $other"
+    done
+done <alone >tried
+cut -f 2 tried | "$SUNDER_BUILD/tests/calls" >answers || fail "calls ends with $?"
+same "$(wc -l <answers)" "$(wc -l <tried)" 'answers to all calls:'
+paste tried answers >asked
+while IFS=$'\t' read -r words call status said; do
+    case $words in
+    !*) case $said in *"${words#!}"*) fail "$call: $said" ;; esac ;;
+    *) case $status,$said in "2,sunder: error: $words "*) ;; *) fail "$call: $status, $said" ;; esac ;;
+    esac
+done <asked
+
 # If a required option is missing, the message names it and no other.
 layer in.gpkg houses POLYGON <<'X'
 id,WKT
@@ -41,7 +97,7 @@ same "$(json '[.commands[] | .name + ":" + ([.operands[] | select(.needed) | .na
 
 # Giving a default explicitly changes nothing.
 expect 0 separate in.gpkg plain.gpkg --quiet
-mapfile -t typed < <(json '.commands[] | select(.name == "separate") | .options[] | select(.default != null) | .name + "=" + .default' options.json)
+mapfile -t typed < <(json '.commands[] | select(.name == "separate") | .options[] | select(.default != null and .needs == []) | .name + "=" + .default' options.json)
 [ "${#typed[@]}" -ge 6 ] || fail "only ${#typed[@]} defaults"
 expect 0 separate in.gpkg typed.gpkg --quiet "${typed[@]}"
 same "$(ogrinfo -q typed.gpkg houses)" "$(ogrinfo -q plain.gpkg houses)" 'typed defaults'

@@ -30,10 +30,6 @@ refused 2 'unknown command' dissolve a b
 refused 2 'a command is missing'
 refused 2 'unknown option' --nonsense
 for option in --lco --co --oo; do refused 2 "$option X: expected K=V" separate a b $option X; done
-# An option that says how another one works needs it.
-refused 2 '--drop-hidden needs --hide' separate a b --drop-hidden
-refused 2 '--dialect needs --sql' separate a b --dialect SQLITE
-refused 2 '--overwrite-layer needs --update' separate a b --overwrite-layer
 
 # A misspelt option gets a suggestion, an unrelated word does not.
 refused 2 'did you mean separate?' seperate a b
@@ -64,8 +60,13 @@ for command in separate check sum pair buffer route plan merge follow; do
     esac
     "$SUNDER" $command --help | grep -oE -- '--[a-z-]+ [a-z0-9-]+(\|[a-z0-9-]+)+' >choices
     while read -r option words; do
+        case $command,$option in
+        separate,--hide-weight | separate,--crossed) with=(--hide) ;; # without that they are refused: test_options.sh
+        check,--crossed) with=(--inset 1) ;;
+        *) with=() ;;
+        esac
         for word in ${words//|/ }; do
-            run $command "${operands[@]}" "$option" "$word" --overwrite </dev/null
+            run $command "${operands[@]}" "$option" "$word" --overwrite "${with[@]}" </dev/null
             [ "$status" -eq 0 ] || [ "$status" -eq 3 ] || fail "$command $option $word: $status"
             rm -rf in.plan
             words_tried=$((words_tried + 1))
