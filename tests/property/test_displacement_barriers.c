@@ -310,8 +310,8 @@ static void draw_lines(const scene *s, rng *r, barrier *b)
     for (int k = 0; k < lines; k++) {
         const int corners = (int)rng_int(r, 1, 4);
         for (int i = 0; i < corners; i++, n++) {
-            put(s, b->xy, n, (double)(step * rng_int(r, -8 / step, 20 / step)),
-                (double)(step * rng_int(r, -8 / step, 20 / step)));
+            const int64_t y = step * rng_int(r, -8 / step, 20 / step), x = step * rng_int(r, -8 / step, 20 / step);
+            put(s, b->xy, n, (double)x, (double)y);
             if (i && rng_once_in(r, 8)) memcpy(b->xy + 2 * n, b->xy + 2 * n - 2, 2 * sizeof *b->xy);
         }
         b->end[b->lines++] = n;
@@ -347,9 +347,8 @@ static void draw(scene *s, rng *r)
         else
             draw_lines(s, r, b);
         const double w = s->unit * widths[rng_int(r, 0, 4)], g = gaps[rng_int(r, 0, 3)];
-        s->barrier[k] = (sunder_barrier){{b->shape, b->lines ? b->xy : NULL, b->end, b->lines},
-                                         .width = w,
-                                         .gap = g < 0 ? g : s->unit * g};
+        s->barrier[k] = (sunder_barrier){
+            {b->shape, b->lines ? b->xy : NULL, b->end, b->lines}, .width = w, .gap = g < 0 ? g : s->unit * g};
     }
     sunder_layer_options_init(&s->options);
     s->options.gap = rng_once_in(r, 2) ? 0 : s->unit;

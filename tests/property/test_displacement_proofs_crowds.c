@@ -22,8 +22,9 @@ static void add_grid(rng *r, proof_town *t)
     for (size_t k = 0; k < rows * columns; k++) {
         const double x = 12 * (double)(k % columns) + (double)rng_int(r, -3, 3) / 8,
                      y = 12 * (double)(k / columns) + (double)rng_int(r, -3, 3) / 8;
-        proof_town_add_box(t, x, y, 9.75 + (double)rng_int(r, 0, 4) / 8, 9.75 + (double)rng_int(r, 0, 4) / 8,
-                           rng_once_in(r, 48) ? 0 : limit);
+        const bool fixed = rng_once_in(r, 48);
+        const double h = 9.75 + (double)rng_int(r, 0, 4) / 8, w = 9.75 + (double)rng_int(r, 0, 4) / 8;
+        proof_town_add_box(t, x, y, w, h, fixed ? 0 : limit);
     }
 }
 

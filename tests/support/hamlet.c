@@ -129,7 +129,8 @@ void hamlet_found(rng *r, hamlet *t, size_t n, int kinds)
     t->gap = rng_once_in(r, 2) ? 0 : unit * 0.25 * (double)rng_int(r, 1, 8);
     for (size_t k = 0; k < n; k++) {
         house *h = &t->house[k];
-        build(r, h, x + unit * (double)rng_int(r, 0, 9), y + unit * (double)rng_int(r, 0, 9), unit);
+        const double up = unit * (double)rng_int(r, 0, 9), right = unit * (double)rng_int(r, 0, 9);
+        build(r, h, x + right, y + up, unit);
         if (weights) h->weight = (double)rng_int(r, 1, 32) / 8;
         if (limits && rng_once_in(r, 2)) h->limit = unit * (double)rng_int(r, 0, 24) / 4;
         h->fixed = fixed && rng_once_in(r, 3);
