@@ -67,7 +67,7 @@ static uint32_t turn_at_end(const sunder_i_graph *g, uint32_t edge, bool clockwi
         if (r & 1) continue;
         if (!same_component || g->component[g->walk[r >> 1]] == g->component[g->walk[edge]]) return r >> 1;
     }
-    SUNDER_I_ASSERT(!"edges that arrive and edges that leave balance at each vertex");
+    SUNDER_I_ASSERT(false && "edges that arrive and edges that leave balance at each vertex");
     return edge;
 }
 

@@ -1,17 +1,40 @@
-# shellcheck shell=bash
-# Runs the tests of the library in a build without NDEBUG, so that its assertions and checkers run
-# (src/base/invariant.h). The longest random tests, of the label `thorough`, are left to the build without assertions.
-set -eu
-build=$SUNDER_BUILD/invariants
-cmake -S "$SUNDER_SOURCE" -B "$build" -DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_FLAGS=-O2 -DCMAKE_C_FLAGS_DEBUG= \
-    -DSUNDER_PROGRAM=OFF -DSUNDER_FUZZ=OFF >"$build.log" 2>&1 ||
-    { cat "$build.log"; exit 1; }
-programs=$(cd "$SUNDER_SOURCE/tests" && find unit property golden -name 'test_*.c' | # unit/number/test_big.c: test_number_big
-    sed 's|^[a-z]*/||; s|^\(.*/\)test_|test_\1|; s|/|_|g; s|\.c$||')
-# shellcheck disable=SC2086 # words
-cmake --build "$build" -j "$(nproc)" --target $programs sunder-families >"$build.log" 2>&1 || { tail -50 "$build.log"; exit 1; }
+#!/usr/bin/env bash
+# Do the assertions and checkers of the library (src/base/invariant.h) hold in its own tests, and do these pass in the
+# build of another compiler? One build answers both: by clang if the ordinary build is by gcc, by gcc if it is by clang,
+# without NDEBUG and with warnings as errors. Without a second compiler the first one makes it.
+#
+# What this leaves out: code by gcc with assertions, and code by clang without, where only gcc reports variables that
+# nothing but an assertion uses. The longest random tests, of the label `thorough`, run in the ordinary build alone.
+set -euo pipefail
+source=${SUNDER_SOURCE:?}
+build=${SUNDER_BUILD:?}
+first=$(sed -n 's/^CMAKE_C_COMPILER:[A-Z]*=//p' "$build/CMakeCache.txt" | head -n 1)
+second=clang
+if "$first" -dM -E -x c /dev/null | grep -q '__clang__'; then second=gcc; fi
+command -v $second >/dev/null || { echo "$second is not installed: the build is by $first"; second=$first; }
+second_build=$build/invariants
+mkdir -p "$second_build"
+
+failed() {
+    echo "FAILED: $second: $(grep -cE '(error|warning):' "$second_build/log") warnings and errors"
+    grep -E '(error|warning):' -A 2 "$second_build/log" | head -n 40 || tail -n 20 "$second_build/log"
+    exit 1
+}
+generator=$(sed -n 's/^CMAKE_GENERATOR:INTERNAL=//p' "$build/CMakeCache.txt")
+jobs=$(nproc 2>/dev/null || echo 2)
+cmake -S "$source" -B "$second_build" -G "$generator" -D CMAKE_C_COMPILER="$second" -D CMAKE_BUILD_TYPE=Debug \
+    -D CMAKE_C_FLAGS_DEBUG=-O1 -D SUNDER_WERROR=ON >"$second_build/log" 2>&1 || failed
+grep -q -- '-Wpedantic .*-Werror' "$second_build/compile_commands.json" || { echo "FAILED: warnings are not errors"; exit 1; }
+
+mapfile -t programs < <(cd "$source/tests" && find unit property golden -name 'test_*.c' |
+    sed 's|^[a-z]*/||; s|^\(.*/\)test_|test_\1|; s|/|_|g; s|\.c$||') # unit/number/test_big.c: test_number_big
+keep_going=(-k) # every file is compiled, even if others have warnings
+if [[ $generator == Ninja* ]]; then keep_going=(-k 0); fi
+cmake --build "$second_build" -j "$jobs" --target "${programs[@]}" sunder-families -- "${keep_going[@]}" \
+    >"$second_build/log" 2>&1 || failed
+
 # Can the check fail? A broken invariant has to end the program.
-cat >"$build/broken.c" <<'X'
+cat >"$second_build/broken.c" <<'X'
 #include "base/invariant.h"
 int main(int argc, char **argv)
 {
@@ -21,7 +44,8 @@ int main(int argc, char **argv)
     return 0;
 }
 X
-cc -I "$SUNDER_SOURCE/src" -o "$build/broken" "$build/broken.c" "$(find "$build" -name libsunder.a)" -lgmp -lm -pthread
-! ("$build/broken" 2>/dev/null) && ! ("$build/broken" x 2>/dev/null) && "$build/broken" x x || { echo "assertions are off"; exit 1; }
-cd "$build"
-ctest --output-on-failure -j "$(nproc)" -L '^(unit|golden|property)$' -LE '^thorough$'
+$second -I "$source/src" -o "$second_build/broken" "$second_build/broken.c" "$second_build/src/libsunder.a" -lgmp -lm -pthread
+! ("$second_build/broken" 2>/dev/null) && ! ("$second_build/broken" x 2>/dev/null) && "$second_build/broken" x x ||
+    { echo "FAILED: assertions are off"; exit 1; }
+cd "$second_build"
+ctest --output-on-failure -j "$jobs" -L '^(unit|golden|property)$' -LE '^thorough$'
