@@ -8,7 +8,7 @@ makes a kind of statement which the other runs do not make. In each file every n
 little and by much, to zero, negative, subnormal, huge, infinite, not a number. Every line, member and element is
 removed, doubled, swapped with the next, emptied, or replaced by one of another type. Indices become -1 and the count.
 N of all of these are drawn by the seed, or all are tried. The file is checked against another layer, and with other
-options; lines of another run on the same layer are put into it. What is accepted is judged: this script judges the
+options; lines of another run on the same layer are put into it: N of these cases are drawn, or all are tried. What is accepted is judged: this script judges the
 claimed conflicts, the blocks and the sum of the bounds, judge.py judges each line. With --need-all the forged lines
 together have to use every member of the format and to make every kind of statement that statements.py lists.
 """
@@ -257,16 +257,17 @@ def swapped(run, other):
 
 
 def strangers(runs):
-    """(the options, the function that finds what is wrong)"""
+    """(the options, a kind, the function that finds what is wrong)"""
     for run in runs:
         for other in runs:
             if other is not run:
-                yield f"{run.path} for {other.path}", lambda r=run, o=other: o.wrong_with(r.lines)[0]
+                yield f"{run.path} for {other.path}", "for", lambda r=run, o=other: o.wrong_with(r.lines)[0]
             if other is not run and other.words[0] == run.words[0]:
                 for what, lines in swapped(run, other):
-                    yield f"{run.path} with the {what} of {other.path}", lambda r=run, own=lines: r.wrong_with(own)[0]
+                    yield f"{run.path} with the {what} of {other.path}", what, lambda r=run, own=lines: r.wrong_with(own)[0]
         for words in other_options(run.words):
-            yield f"{run.path} with {' '.join(words)}", lambda r=run, w=words: wrong_with_options(r, w)
+            kind = " ".join(words[len(run.words):]) or "a barrier"
+            yield f"{run.path} with {' '.join(words)}", kind, lambda r=run, w=words: wrong_with_options(r, w)
 
 
 def wrong_with_options(run, words):
@@ -343,6 +344,14 @@ prices.unit prices.x prices.y prices.columns prices.rows crowded hide hide.hidde
 members choice nodes.split nodes.level nodes.shares shape level polygons taken""".split()
 
 
+def draw(options, cases, kind_of):
+    """Draws --draw of the cases by the seed, with the first of each kind among them."""
+    cases = random.Random(options.seed).sample(cases, len(cases))
+    first = {kind_of(case): k for k, case in reversed(list(enumerate(cases)))}
+    chosen = sorted(first.values()) + [k for k in range(len(cases)) if first[kind_of(cases[k])] != k]
+    return [cases[k] for k in chosen[:options.draw]]
+
+
 def main(words):
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("runs")
@@ -359,22 +368,23 @@ def main(words):
     drawn = [(k, what) for k, run in enumerate(runs) for what in run.forgeries()]
     every = len(drawn)
     if options.draw:
-        drawn = random.Random(options.seed).sample(drawn, min(options.draw, len(drawn)))
+        drawn = draw(options, drawn, lambda case: case[1][2])
     accepted = 0
     for k, what in drawn:
         said, is_accepted = runs[k].wrong_with(runs[k].make(*what))
         accepted += is_accepted
         if said:
             wrong.append(f"{runs[k].path}, line {what[0] + 1}, {'.'.join(map(str, what[1]))}, {what[2]}: {said}")
-    others = 0
-    for what, ask in () if options.own_alone else strangers(runs):
-        others += 1
+    others = [] if options.own_alone else list(strangers(runs))
+    if options.draw:
+        others = draw(options, others, lambda case: case[1])
+    for what, _, ask in others:
         said = ask()
         if said:
             wrong.append(f"{what}: {said}")
     for line in wrong[:40]:
         print(line)
-    print(f"{len(drawn)} of {every} forgeries by seed {options.seed}, {others} of other layers and options: {len(wrong)} wrong; "
+    print(f"{len(drawn)} of {every} forgeries by seed {options.seed}, {len(others)} of other layers and options: {len(wrong)} wrong; "
           f"{accepted} claim no more than is true")
     return 1 if wrong else 0
 
