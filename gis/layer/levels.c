@@ -82,6 +82,7 @@ typedef struct maker {
     sunder_shape **one;   /* [features * the rungs that are made at once] */
     sunder_shape **least; /* [features] the smallest shapes so far, borrowed; NULL: as given */
     size_t made;          /* the number of rungs made */
+    bool *rigid;          /* [features] their shapes never change; NULL: all may */
 } maker;
 
 static bool begin(maker *m, size_t n, gis_error *error)
@@ -94,16 +95,22 @@ static bool begin(maker *m, size_t n, gis_error *error)
     levels->kind = calloc(levels->rungs + 1, sizeof *levels->kind);
     m->one = calloc(n * levels->rungs + 1, sizeof(sunder_shape *));
     m->least = calloc(n + 1, sizeof(sunder_shape *));
-    return (levels->shape && levels->kind && m->one && m->least) || gis_no_memory(error);
+    return ((levels->shape && levels->kind && m->one && m->least) || gis_no_memory(error)) &&
+           gis_levels_rigid(m->input, &m->rigid, error);
 }
 
-/* Takes over the shapes in m->one, `rungs` for each feature. The last rung has a kind of its own. */
+/* Takes over the shapes in m->one, `rungs` for each feature, except those of rigid features: later rungs of their
+ * neighbours are made beside the shapes that they keep. The last rung has a kind of its own. */
 static void take_rungs(maker *m, gis_rung kind, size_t rungs, gis_rung last)
 {
     gis_levels *levels = m->levels;
     for (size_t k = 0; k < levels->features; k++)
         for (size_t rung = 0; rung < rungs; rung++) {
             sunder_shape *shape = m->one[k * rungs + rung];
+            if (m->rigid && m->rigid[k]) {
+                sunder_shape_free(shape);
+                continue;
+            }
             levels->shape[k * levels->rungs + m->made + rung] = shape;
             if (shape) m->least[k] = shape;
         }
@@ -156,29 +163,13 @@ bool gis_levels_rigid(const gis_layer_input *input, bool **rigid, gis_error *err
     return *rigid ? gis_source_mark(input->source, "--rigid-where", where, *rigid, error) : gis_no_memory(error);
 }
 
-/* Drops the smaller shapes of rigid features. */
-static bool keep_rigid(const gis_layer_input *input, gis_levels *levels, gis_error *error)
-{
-    bool *rigid;
-    const bool ok = gis_levels_rigid(input, &rigid, error);
-    for (size_t k = 0; ok && rigid && k < levels->features; k++) {
-        if (!rigid[k]) continue;
-        for (size_t rung = 0; rung < levels->rungs; rung++) {
-            sunder_shape_free(levels->shape[k * levels->rungs + rung]);
-            levels->shape[k * levels->rungs + rung] = NULL;
-        }
-    }
-    free(rigid);
-    return ok;
-}
-
 bool gis_levels_make(const gis_layer_input *input, const sunder_layer *layer, gis_levels *out, gis_error *error)
 {
     maker m = {.input = input, .layer = layer, .core = gis_layer_core_options(input), .levels = out};
     *out = (gis_levels){0};
     if (!gis_levels_asked(&input->request->rules)) return true;
-    const bool ok = begin(&m, input->n, error) && trim(&m, error) && inset(&m, error) && scale(&m, error) &&
-                    keep_rigid(input, out, error);
+    const bool ok = begin(&m, input->n, error) && trim(&m, error) && inset(&m, error) && scale(&m, error);
+    free(m.rigid);
     free(m.one);
     free(m.least);
     return ok;

@@ -113,7 +113,7 @@ static bool put_shapes(gis_proof_lines *lines, const gis_layer_input *input, gis
         for (size_t rung = 0; rung < levels->rungs && done; rung++) {
             const sunder_shape *shape = gis_levels_shape(levels, i, rung);
             if (!shape) continue;
-            gis_proof_shape(lines, i, ++level, shape);
+            gis_proof_shape(lines, i, ++level, rung, shape);
             done = put_line(lines, "shape", k++, line, to, error);
         }
     }

@@ -2,11 +2,12 @@
  * and the trees of the bound. */
 #include "layer/proof_lines.h"
 
-void gis_proof_shape(gis_proof_lines *lines, size_t feature, size_t level, const sunder_shape *shape)
+void gis_proof_shape(gis_proof_lines *lines, size_t feature, size_t level, size_t rung, const sunder_shape *shape)
 {
     gis_json *json = &lines->json;
     gis_proof_thing(lines, "fid", feature);
     gis_json_put_size(json, "level", level);
+    gis_json_put_size(json, "rung", rung);
     if (sunder_report_level(lines->report, feature) == level) gis_json_put_bool(json, "taken", true);
     gis_json_key(json, "polygons");
     gis_json_open(json, '[');

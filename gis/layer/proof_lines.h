@@ -44,8 +44,9 @@ size_t gis_proof_block(const gis_proof_lines *lines, size_t feature);
 /* Make the text that follows the number of conflict k, or of a tree's group. */
 void gis_proof_conflict(gis_proof_lines *lines, size_t k);
 bool gis_proof_tree(gis_proof_lines *lines, const sunder_bound_tree *tree, gis_error *error);
-/* proof_hiding.c: the text that follows the number of a smaller shape, which has this level of the feature. */
-void gis_proof_shape(gis_proof_lines *lines, size_t feature, size_t level, const sunder_shape *shape);
+/* proof_hiding.c: the text that follows the number of a smaller shape, which has this level of the feature, and this
+ * rung of the run. */
+void gis_proof_shape(gis_proof_lines *lines, size_t feature, size_t level, size_t rung, const sunder_shape *shape);
 /* The same for the text that follows the number of a clause, or of tree k of the bound of what is hidden.
  * clause: the numbers of the proved clauses in the file. */
 void gis_proof_clause(gis_proof_lines *lines, const sunder_clause *clause);

@@ -55,6 +55,8 @@ def read_options(words):
     parser.add_argument("--hide-weight", choices=("1", "area", "sqrt-area"), default="sqrt-area")
     parser.add_argument("--trim", action="store_true")
     parser.add_argument("--trim-keep", type=float, default=0.5)
+    parser.add_argument("--inset", default="")
+    parser.add_argument("--symbol-size")
     parser.add_argument("--min-size", help="not verified of smaller shapes")
     for name in ("effort", "seed", "id-field", "threads"):
         parser.add_argument("--" + name, help="no part of what is claimed")
@@ -89,7 +91,7 @@ class Checker:
         if options.row_stiffness:
             self.problem.rows = (GivenRows if options.rows_field else Rows)(self.problem, options.row_stiffness)
         self.problem.eased = Eased(self.problem, options.ease)
-        self.hiding = Hiding(self.problem, options) if options.hide or options.trim else None
+        self.hiding = Hiding(self.problem, self.problem.options) if self.problem.makes_room() else None
         self.known, self.kept, self.held = {}, set(), {}
         self.result = Result(self.problem, options.result) if options.result else None
 

@@ -341,7 +341,7 @@ bodies.features.max_shift bodies.features.anchor bodies.barrier bodies.weight bo
 pieces.A pieces.B pieces.shadow pieces.clearance nodes nodes.parent nodes.cuts nodes.cuts.kind nodes.cuts.i nodes.cuts.j nodes.cuts.n
 nodes.cuts.d nodes.cuts.pieces nodes.cuts.share pieces.priced pieces.joined pieces.pieces eased ease row_stiffness row along apart pieces.row springs springs.i springs.j springs.n springs.stiff nodes.forces nodes.by nodes.empty nodes.empty.i nodes.empty.j nodes.empty.pieces prices prices.side
 prices.unit prices.x prices.y prices.columns prices.rows crowded hide hide.hidden hide.shapes hide.clauses hide.choices hide.bound hidden fid clause
-members choice nodes.split nodes.level nodes.shares shape level polygons taken""".split()
+members choice nodes.split nodes.level nodes.shares shape level rung polygons taken""".split()
 
 
 def draw(options, cases, kind_of):

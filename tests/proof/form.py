@@ -211,7 +211,7 @@ head = members({"sunder_proof": whole, "layer": name, "gap": not_negative, "max_
                {"row_stiffness": all_of(not_negative, 2, 2), "ease": positive, "least_gap": not_negative, "hide": hide})
 block = members({"block": all_of(integer, 2)})
 hidden = members({"hidden": whole, "fid": integer})
-shape = members({"shape": whole, "fid": integer, "level": whole, "polygons": all_of(all_of(all_of(place, 3), 1), 1)}, {"taken": true})
+shape = members({"shape": whole, "fid": integer, "level": whole, "rung": whole, "polygons": all_of(all_of(all_of(place, 3), 1), 1)}, {"taken": true})
 clause = members({"clause": whole, "members": all_of(pair_of(integer, whole), 1), "a": thing, "b": thing, "reason": one_of(REASONS)},
                  {"crowded": true, "within": positive, "proof": nodes_of_clause})
 choice_node = either("split", members({"split": integer, "level": whole}),

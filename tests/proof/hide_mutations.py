@@ -210,6 +210,9 @@ def show_hidden(lines):
 
 # ---- Smaller shapes
 
+OFF_THE_RUNG = "is too near the outline", "is too near a corner", "is cut where the outline is far", "is not the one as given, scaled by", "is no square", "is in a block"
+
+
 def scaled(line, factor):
     ring = line["polygons"][0][0]
     x, y = (sum(p[c] for p in ring) / len(ring) for c in (0, 1))
@@ -219,14 +222,83 @@ def scaled(line, factor):
 def enlarge_shape(lines):
     for line in with_key(lines, "shape"):
         scaled(line, 1.5)
-        return ("does not lie in the one before",)
+        return "does not lie in the one before", *OFF_THE_RUNG
     return False
 
 
+def last_shapes(lines):
+    """The last smaller shape of each feature."""
+    return {line["fid"]: line for line in with_key(lines, "shape")}.values()
+
+
 def shrink_shape(lines):
-    for line in with_key(lines, "shape"):
+    for line in last_shapes(lines):
         scaled(line, 0.125)
-        return ("keeps too little",)
+        return "keeps too little", *OFF_THE_RUNG
+    return False
+
+
+def other_rung(lines):
+    """The only smaller shape of a feature, called one of the next rung."""
+    shapes = with_key(lines, "shape")
+    for line in shapes:
+        if sum(other["fid"] == line["fid"] for other in shapes) == 1:
+            line["rung"] += 1
+            return "a rung that is not wanted", *OFF_THE_RUNG
+    return False
+
+
+def rung_before(lines):
+    """The same, called one of the rung before."""
+    shapes = with_key(lines, "shape")
+    for line in shapes:
+        if line["rung"] and sum(other["fid"] == line["fid"] for other in shapes) == 1:
+            line["rung"] -= 1
+            return "keeps too little", "is too near", *OFF_THE_RUNG
+    return False
+
+
+def no_rung(lines):
+    for line in with_key(lines, "shape"):
+        line["rung"] = 99
+        return ("a rung that is not wanted",)
+    return False
+
+
+def widen_shape(lines):
+    """The last smaller shape of a feature in no block, enlarged so little that it still lies in the one before."""
+    joined = {fid for line in with_key(lines, "block") for fid in line["block"]}
+    for line in last_shapes(lines):
+        if line["rung"] and line["fid"] not in joined:
+            scaled(line, 1 + 1e-4)
+            return OFF_THE_RUNG
+    return False
+
+
+def tip_shape(lines):
+    """The last smaller shape of a feature, with a corner moved in by a tenth of the way to the next but one."""
+    for line in last_shapes(lines):
+        ring = line["polygons"][0][0]
+        if line["rung"] and len(ring) >= 4:
+            ring[0] = [p + (q - p) / 10 for p, q in zip(ring[0], ring[2])]
+            return "is no longer shared", "is no polygon", *OFF_THE_RUNG
+    return False
+
+
+def slide_on_wall(lines):
+    """A corner that two smaller shapes of one rung share, moved along their wall in one of them."""
+    shapes = with_key(lines, "shape")
+    for line in shapes:
+        for other in shapes:
+            if other["rung"] != line["rung"] or other["fid"] == line["fid"]:
+                continue
+            shared = [tuple(p) for p in other["polygons"][0][0]]
+            ring = line["polygons"][0][0]
+            at = [k for k, p in enumerate(ring) if tuple(p) in shared]
+            if len(at) == 2 and (at[1] - at[0]) in (1, len(ring) - 1):
+                p, q = ring[at[0]], ring[at[1]]
+                ring[at[0]] = [a + (b - a) / 64 for a, b in zip(p, q)]
+                return ("is no longer shared",)
     return False
 
 
@@ -238,7 +310,7 @@ def reach_barrier(lines):
         for p in corners:
             if p not in ring and not node_is_near(p, ring):
                 ring.append(p)
-                return ("is too near", "does not lie in", "is no polygon")
+                return "is too near", "does not lie in", "is no polygon", *OFF_THE_RUNG
     return False
 
 
@@ -305,4 +377,6 @@ HIDES = {"member left out": leave_member_out, "member never hidden": add_never_h
          "tree of hidden twice": tree_twice, "hidden twice": hide_twice, "hidden important": hide_important, "hidden shown": show_hidden,
          "larger shape": enlarge_shape, "shape that keeps too little": shrink_shape, "shape at a barrier": reach_barrier,
          "shape that crosses itself": cross_shape, "shape twice": shape_twice, "shape of nothing": shape_of_nothing,
-         "shape not taken": shape_not_taken, "shape of a hidden feature": shape_of_hidden, "lesser level of a clause": shapes_for_tree}
+         "shape not taken": shape_not_taken, "shape of a hidden feature": shape_of_hidden, "shape of the next rung": other_rung, "shape of the rung before": rung_before,
+         "shape of no rung": no_rung, "shape that is too large for its rung": widen_shape, "shape with a tip cut": tip_shape,
+         "wall that is cut at two places": slide_on_wall, "lesser level of a clause": shapes_for_tree}

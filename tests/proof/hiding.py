@@ -14,6 +14,7 @@ from form import NotRead, demand, index
 from geopackage import number_of
 from problem import Thing
 from repair import area_of, repaired
+from rungs import Rungs
 from verdicts import Verdict
 
 LAST, UNIT, MOST = (1 << 32) - 1, 1000.0, 1 << 40
@@ -70,6 +71,7 @@ class Hiding:
     def __init__(self, problem, options):
         self.problem, self.field, self.weighting = problem, options.hierarchy_field, options.hide_weight
         self.hidden, self.clauses, self.total, self.used = [], [], {}, set()
+        self.rungs = Rungs(problem, options)
 
     # ---- What it costs
 
@@ -115,24 +117,28 @@ class Hiding:
         problem = self.problem
         problem.set_levels({})
         problem.smaller, problem.taken, self.taken = {}, {}, {}
+        self.rungs.begin()
         for told in lines:
-            fid, level, polygons = told["fid"], told["level"], told["polygons"]
-            demand(problem.options.trim, "smaller shapes, where none are wanted")
+            fid, level, rung, polygons = told["fid"], told["level"], told["rung"], told["polygons"]
+            demand(rung < len(self.rungs.rungs), "a smaller shape of", fid, "on a rung that is not wanted")
             demand(fid in problem.place and fid not in problem.skipped, "there is no feature", fid)
             demand(fid not in problem.rigid, "a smaller shape of", fid, ", whose shape never changes")
-            own = problem.smaller.setdefault(fid, [])
-            demand(level == len(own) + 1 == 1, "smaller shapes of", fid, "are not in order, or too many")
+            own, rungs = problem.smaller.setdefault(fid, []), self.rungs.of.setdefault(fid, [])
+            demand(level == len(own) + 1 and all(rung > last for last in rungs), "smaller shapes of", fid, "are not in order, or too many")
             polygons = [[[tuple(p) for p in ring] for ring in polygon] for polygon in polygons]
             demand(all(repaired(p) is p for p in polygons), "a smaller shape of", fid, "is no polygon")
-            shape = Thing(problem.lattice, polygons, [])
-            demand(plane.lies_in(shape.whole(), problem.whole(fid)), "a smaller shape of", fid, "does not lie in the one before")
-            area = float(sum(map(area_of, polygons), Fraction(0)))
-            demand(area >= problem.options.trim_keep * problem.area(fid) * (1 - 2 ** -40), "a smaller shape of", fid, "keeps too little")
-            self.demand_cut_back(fid, shape)
+            shape, before = Thing(problem.lattice, polygons, []), own[-1].whole() if own else problem.whole(fid)
+            demand(plane.lies_in(shape.whole(), before), "a smaller shape of", fid, "does not lie in the one before")
+            if self.rungs.is_trimmed(rung):
+                area = float(sum(map(area_of, polygons), Fraction(0)))
+                demand(area >= problem.options.trim_keep * problem.area(fid) * (1 - 2 ** -40), "a smaller shape of", fid, "keeps too little")
+                self.demand_cut_back(fid, shape)
             own.append(shape)
+            rungs.append(rung)
             if told.get("taken"):
                 demand(fid not in self.hidden and fid not in self.taken, fid, "has two shapes, or is hidden")
                 self.taken[fid], problem.taken[fid] = level, polygons
+        self.rungs.demand_all()
 
     def demand_cut_back(self, fid, shape):
         """Fails unless the shape keeps its distance from barriers, except where its feature is crossed and kept."""

@@ -164,9 +164,10 @@ class Problem:
         """The options with lengths as doubles in units of the layer."""
         own = argparse.Namespace(**vars(options))
         own.gap = self.units(own.gap, "--gap")
-        for name in ("max_shift", "touch_tolerance", "least_gap"):
+        for name in ("max_shift", "touch_tolerance", "least_gap", "symbol_size"):
             if getattr(own, name) is not None:
                 setattr(own, name, self.units(getattr(own, name), "--" + name.replace("_", "-")))
+        own.inset = [self.units(length, "--inset") for length in own.inset.split(",") if length]
         return own
 
     def read_barriers(self, spec):
@@ -212,9 +213,14 @@ class Problem:
 
     def is_crossed(self, a, b):
         """Does a line or point of one, a barrier, meet the interior of the other one where it stands, and may that stay so?"""
-        if not (self.options.hide or self.options.trim) or self.options.crossed != "keep" or self.is_barrier(a) == self.is_barrier(b):
+        if not self.makes_room() or self.options.crossed != "keep" or self.is_barrier(a) == self.is_barrier(b):
             return False
         return self.crosses(*((b, a) if self.is_barrier(a) else (a, b)))
+
+    def makes_room(self):
+        """May features be hidden, or become smaller?"""
+        options = self.options
+        return bool(options.hide or options.trim or options.inset or options.symbol_size is not None)
 
     def crosses(self, feature, barrier):
         if (feature, barrier) not in self.crossed:

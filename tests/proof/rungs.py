@@ -1,0 +1,311 @@
+"""Is a smaller shape of the file one that its rung allows (docs/PROOF.md, section 6)? In integers and fractions; what is rounded in the
+program may be off by a hair.
+
+    trim     the shape keeps its distance from barriers: hiding.py
+    inset    no strip along a side of the block's outline meets it, and no triangle between strips where the outline turns outwards; its
+             corners are on walls of the shape before, or as near to a side as the length says, or nearer than twice that to a place where the
+             outline turns outwards; a wall that two members share is cut at one place
+    scaled   the shape as given, scaled about some point; of a feature in no block with others
+    square   a square along the longest edge of the shape as given
+
+A side is a part of an edge of a member, trimmed or as given, that no edge of another member as given accompanies up to the block
+tolerance, and that does not lie in another member as given.
+"""
+from fractions import Fraction
+
+from exact import plane
+from form import demand
+from problem import root_above
+
+FACTORS = 0.8, 0.6
+HAIR, POINT = 1 << 40, 1 << 47  # shares of the largest coordinate
+ALONG = Fraction(49, 100)       # square of the cosine of edges that accompany each other
+
+
+class Rungs:
+    def __init__(self, problem, options):
+        """options: with lengths in units of the layer."""
+        self.problem, self.known = problem, {}
+        self.rungs = [("trim", None)] if options.trim else []
+        self.rungs += [("inset", length) for length in options.inset]
+        if options.symbol_size is not None:
+            self.rungs += [("scaled", factor) for factor in FACTORS] + [("square", options.symbol_size)]
+        self.of = {}  # features: the rungs of their smaller shapes
+
+    def begin(self):
+        self.of, self.known = {}, {}
+
+    def is_trimmed(self, rung):
+        return self.rungs[rung][0] == "trim"
+
+    def demand_all(self):
+        """Fails unless each shape of problem.smaller is one that its rung, self.of, allows."""
+        for fid, own in self.of.items():
+            for level, rung in enumerate(own):
+                kind, number = self.rungs[rung]
+                shape = self.problem.smaller[fid][level]
+                if kind == "inset":
+                    self.demand_inset(fid, rung, level, shape, self.problem.lattice(number))
+                elif kind == "scaled":
+                    self.demand_scaled(fid, shape, Fraction(number))
+                elif kind == "square":
+                    self.demand_square(fid, shape, self.problem.lattice(number))
+
+    def hair(self, fid, share=HAIR):
+        return Fraction(max(map(abs, self.problem.original[fid].whole().box)), share)
+
+    # ---- Insets
+
+    def base(self, fid):
+        """The shape whose outline is moved in: trimmed, or as given."""
+        own = self.of.get(fid, [])
+        return self.problem.smaller[fid][0] if own and self.is_trimmed(own[0]) else self.problem.original[fid]
+
+    def before(self, fid, level):
+        return self.problem.smaller[fid][level - 1] if level else self.problem.original[fid]
+
+    def demand_inset(self, fid, rung, level, shape, depth):
+        hair, outline = self.hair(fid), shape.whole()
+        sides = [s for s in self.sides(self.problem.blocks.block(fid)) if plane.boxes_near(plane.edge_box(s), outline.box, 2 * depth + hair)]
+        reach = max(self.problem.lattice(self.problem.tolerance), hair) + hair
+        for side in sides if depth > 2 * hair else ():
+            if any(plane.edges_nearer(e, side, depth) for e in plane.near_edges(outline, plane.edge_box(side), depth)):
+                strip = strip_along(side, depth - hair, hair, *(steepest(side, sides, end, reach) for end in (0, 1)))
+                demand(not strip or not plane.interiors_meet(outline, strip), "a smaller shape of", fid, "is too near the outline")
+                corner = corner_beyond(side, sides, depth - hair, hair, self.hair(fid, POINT))
+                demand(not corner or not plane.interiors_meet(outline, corner), "a smaller shape of", fid, "is too near a corner of the outline")
+        walls = self.before(fid, level).whole().edges
+        ends = [s[1] for s in sides if any(cross(vector(*s), vector(*g)) < 0 for g in sides if near(g[0], s[1], reach))]
+        for p in corners_of(outline):
+            demand(is_near(p, walls, hair) or is_near(p, sides, depth + hair) or any(near(p, q, 2 * depth + reach) for q in ends), "a smaller shape of", fid, "is cut where the outline is far")
+        for other in self.problem.blocks.block(fid):
+            if other != fid and rung in self.of.get(other, ()):
+                self.demand_wall_kept(fid, shape, other, self.problem.smaller[other][self.of[other].index(rung)], hair)
+
+    def demand_wall_kept(self, fid, shape, other, others, hair):
+        """Fails if a corner at which the shape leaves a wall that it shares with the other one is no corner of that one."""
+        outline, its = shape.whole(), others.whole()
+        if not plane.boxes_near(outline.box, its.box, hair):
+            return
+        own, its_own = self.base(fid).whole(), self.base(other).whole()
+        walls = [g for g in its.edges if plane.boxes_near(plane.edge_box(g), outline.box, hair) and is_on_wall(g, its_own, hair)]
+        corners = [*corners_of(its), *corners_of(own)]
+        for ring in outline.rings:
+            for k, p in enumerate(ring):
+                along = [g for g in walls if is_near(p, [g], hair) for q in (ring[k - 1], ring[k + 1 - len(ring)])
+                         if not near(p, q, 8 * hair) and is_on_line(q, g, 4 * hair) and is_on_wall((p, q), own, hair)]
+                demand(not along or any(near(p, q, 4 * hair) for q in corners), "the wall of", fid, "and", other, "is no longer shared")
+
+    def sides(self, block):
+        if block not in self.known:
+            given = {fid: directed_edges(self.problem.original[fid]) for fid in block}
+            own = {fid: directed_edges(self.base(fid)) for fid in block}
+            self.known[block] = [s for fid in block for e in own[fid] for s in self.parts(fid, e, given)] if len(block) > 1 else own[block[0]]
+            self.known[block] = in_line(self.known[block], self.hair(block[0], POINT), self.hair(block[0]))
+        return self.known[block]
+
+    def parts(self, fid, e, given):
+        """The parts of an edge that are sides: it is divided where edges of other members begin to accompany it, or cross it."""
+        hair = self.hair(fid)
+        tolerance = max(self.problem.lattice(self.problem.tolerance), hair) + hair
+        box = plane.edge_box(e)
+        close = [(other, g) for other, own in given.items() if other != fid for g in own if plane.boxes_near(plane.edge_box(g), box, tolerance)]
+        at = sorted({Fraction(0), Fraction(1), *(t for _, g in close for t in divisions(e, g) if 0 < t < 1)})
+        found, goes_on = [], False
+        for s, t in zip(at, at[1:]):
+            goes_on, before = not self.is_inner(fid, e, on_edge(e, (s + t) / 2), close, tolerance, hair), goes_on
+            if goes_on and before:
+                found[-1] = found[-1][0], on_edge(e, t)
+            elif goes_on:
+                found.append((on_edge(e, s), on_edge(e, t)))
+        return found
+
+    def is_inner(self, fid, e, p, close, tolerance, hair):
+        if any(accompanies(e, g) and is_beside(p, g) and is_near(p, [g], tolerance) for _, g in close):
+            return True
+        for other in self.problem.blocks.block(fid):
+            if other != fid and any(o.box and plane.locate(o, p) > 0 for o in self.problem.original[other].outlines):
+                return not is_near(p, [g for m, g in close if m == other], tolerance - 2 * hair)
+        return False
+
+    # ---- Scaled shapes, and squares
+
+    def demand_scaled(self, fid, shape, factor):
+        demand(len(self.problem.blocks.block(fid)) == 1, "a scaled shape of", fid, ", which is in a block")
+        hair, p, q = 16 * self.hair(fid), self.problem.original[fid].whole(), shape.whole()
+        about = [(q.box[c] - factor * p.box[c]) / (1 - factor) for c in (0, 1)]
+
+        def place(at):
+            return tuple(about[c] + factor * (at[c] - about[c]) for c in (0, 1))
+        image = [(place(a), place(b)) for a, b in p.edges]
+        demand(len(p.rings) == len(q.rings) and all(is_near(at, image, hair) for a, b in q.edges for at in (a, middle_of(a, b))) and
+               all(is_near(a, q.edges, hair) for a, _ in image), "a smaller shape of", fid, "is not the one as given, scaled by", float(factor))
+
+    def demand_square(self, fid, shape, side):
+        """All four sides have the length, and adjacent ones are at right angles; two run along the longest edge."""
+        hair, rings = 16 * self.hair(fid), [ring for polygon in shape.polygons for ring in polygon]
+        demand(len(rings) == 1 and len(rings[0]) == 4, "a symbol of", fid, "is no square")
+        steps = [vector(rings[0][k - 1], rings[0][k]) for k in range(4)]
+        off = 4 * hair * (side + hair)
+        demand(all(abs(dot(u, u) - side * side) <= off for u in steps) and all(abs(dot(steps[k - 1], steps[k])) <= off for k in range(4)),
+               "a symbol of", fid, "is no square of that side")
+        edges = [vector(a, b) for a, b in self.problem.original[fid].whole().edges]
+        most = max(dot(u, u) for u in edges)
+        longest = [u for u in edges if dot(u, u) * (1 + Fraction(1, 1 << 30)) >= most]
+        demand(any(min(abs(dot(u, v)), abs(cross(u, v))) ** 2 <= 16 * hair * hair * most for u in longest for v in steps[:1]),
+               "a symbol of", fid, "does not stand along its longest edge")
+
+
+# ---- Geometry
+
+def vector(p, q):
+    return q[0] - p[0], q[1] - p[1]
+
+
+def dot(u, v):
+    return u[0] * v[0] + u[1] * v[1]
+
+
+def cross(u, v):
+    return u[0] * v[1] - u[1] * v[0]
+
+
+def middle_of(p, q):
+    return Fraction(p[0] + q[0]) / 2, Fraction(p[1] + q[1]) / 2
+
+
+def on_edge(e, t):
+    (ax, ay), (bx, by) = e
+    return ax + t * (bx - ax), ay + t * (by - ay)
+
+
+def near(p, q, most):
+    u = vector(p, q)
+    return dot(u, u) <= most * most
+
+
+def is_near(p, edges, most):
+    """Is one of the edges no farther than this from p?"""
+    for e in edges:
+        if plane.boxes_near(plane.edge_box(e), (*p, *p), most):
+            n, m = plane.square_to_edge(p, e)
+            if n <= most * most * m:
+                return True
+    return False
+
+
+def is_on_wall(e, outline, most):
+    return all(is_near(p, outline.edges, most) for p in (*e, middle_of(*e)))
+
+
+def is_on_line(p, e, most):
+    u = vector(*e)
+    return cross(u, vector(e[0], p)) ** 2 <= most * most * dot(u, u)
+
+
+def is_beside(p, e):
+    """Is the point of the edge's line that is nearest to p on the edge?"""
+    u = vector(*e)
+    return 0 <= dot(vector(e[0], p), u) <= dot(u, u)
+
+
+def accompanies(e, g):
+    """Does g run along e in the other direction, up to an angle?"""
+    u, v = vector(*e), vector(*g)
+    along = dot(u, v)
+    return along < 0 and along * along >= ALONG * dot(u, u) * dot(v, v)
+
+
+def divisions(e, g):
+    """Where g divides e, as shares of its length."""
+    u, v, w = vector(*e), vector(*g), vector(e[0], g[0])
+    if accompanies(e, g):
+        return [Fraction(dot(vector(e[0], p), u)) / dot(u, u) for p in g]
+    turn = cross(u, v)
+    if turn == 0 or not 0 <= Fraction(cross(w, u)) / turn <= 1:
+        return []
+    return [Fraction(cross(w, v)) / turn]
+
+
+def corners_of(outline):
+    return [p for ring in outline.rings for p in ring]
+
+
+def directed_edges(thing):
+    """The edges of the polygons, with the inside on their left."""
+    found = []
+    for outline in thing.outlines:
+        for ring in outline.rings:
+            edges = [(ring[k - 1], p) for k, p in enumerate(ring) if ring[k - 1] != p]
+            if edges:
+                (a, b), double = edges[0], outline.scaled(2)
+                left = plane.on_its_left(double, (a[0] + b[0], a[1] + b[1]), vector(a, b))
+                found += edges if left else [(q, p) for p, q in edges]
+    return found
+
+
+def in_line(sides, point, hair):
+    """The sides; two that meet and lie in one line are one."""
+    sides = list(sides)
+    k = 0
+    while k < len(sides):
+        a, b = sides[k]
+        after = [s for s in sides if s is not sides[k] and near(s[0], b, point)]
+        if len(after) == 1 and dot(vector(a, b), vector(*after[0])) > 0 and is_on_line(b, (a, after[0][1]), hair):
+            sides[k] = a, after[0][1]
+            at = next(i for i, s in enumerate(sides) if s is after[0])
+            del sides[at]
+            k -= at < k
+        else:
+            k += 1
+    return sides
+
+
+def half_turn(u, v):
+    """A rational about the tangent of half of the angle from u to v; None if they are opposite."""
+    lengths = root_above(dot(u, u)) * root_above(dot(v, v))
+    return None if lengths + dot(u, v) <= 0 else Fraction(cross(u, v)) / (lengths + dot(u, v))
+
+
+def steepest(side, sides, end, reach):
+    """The greatest tangent of half of a turn inwards at an end of the side, to any side that may go on there. The strips of the two may
+    end at the line between them."""
+    found = Fraction(0)
+    for other in sides:
+        if other is not side and near(other[1 - end], side[end], reach):
+            tangent = half_turn(vector(*other), vector(*side)) if end == 0 else half_turn(vector(*side), vector(*other))
+            found = max(found, 4 if tangent is None else tangent)
+    return found
+
+
+def strip_along(side, depth, hair, at_start, at_end):
+    """The strip on the left of a side, shorter at both ends: by a hair, and within by the tangent at that end times the depth, but by no more
+    than a quarter of the side. None if nothing is left."""
+    a, b = side
+    u = vector(a, b)
+    length = root_above(dot(u, u))
+    if length <= 4 * hair:
+        return None
+
+    def beside(p, along, off):
+        return p[0] + (along * u[0] - off * u[1]) / length, p[1] + (along * u[1] + off * u[0]) / length
+    cut = [min(depth * tangent, length / 4) + hair for tangent in (at_start, at_end)]
+    return plane.Outline([[beside(a, hair, 0), beside(b, -hair, 0), beside(b, -cut[1], depth), beside(a, cut[0], depth)]])
+
+
+def corner_beyond(side, sides, depth, hair, point):
+    """Where the outline turns to the right at the end of the side, the triangle between its strip and that of the next one. None where it
+    turns otherwise, or where more sides than one may go on."""
+    after = [s for s in sides if s is not side and near(s[0], side[1], point)]
+    if len(after) != 1 or sum(near(s[1], side[1], point) for s in sides) != 1:
+        return None
+    u, v, at = vector(*side), vector(*after[0]), side[1]
+    if cross(u, v) >= 0:
+        return None
+    tips = [(-depth * w[1] / root_above(dot(w, w)), depth * w[0] / root_above(dot(w, w))) for w in (v, u)]
+    middle = tips[0][0] + tips[1][0], tips[0][1] + tips[1][1]
+    size = root_above(dot(middle, middle))
+    if size <= 8 * hair or abs(cross(*tips)) <= 8 * hair * depth:
+        return None
+    off = 2 * hair * middle[0] / size, 2 * hair * middle[1] / size
+    return plane.Outline([[(at[0] + off[0] + s * x, at[1] + off[1] + s * y) for x, y, s in ((0, 0, 1), *((x, y, 1 - 4 * hair / depth) for x, y in tips))]])
