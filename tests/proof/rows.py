@@ -192,8 +192,8 @@ class Rows:
         return (along, Fraction(self.problem.options.gap) - apart) if apart > 0 and self.stood_too_near(one, other) else None
 
     def stood_too_near(self, one, other):
-        """Were members of the two nearer than the full gap?"""
-        key = frozenset((one, other))
+        """Were members of the two, with the shapes of their present levels, nearer than the full gap?"""
+        key = one, other, *(self.problem.level.get(fid, 0) for fid in one + other)
         if key not in self.near_at_start:
             self.near_at_start[key] = any(decided.is_too_near(self.problem, k, l, self.problem.full(k, l)) for k in one for l in other)
         return self.near_at_start[key]
