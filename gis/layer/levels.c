@@ -30,6 +30,13 @@ size_t gis_levels_rung(const gis_levels *levels, size_t i, size_t k)
     return rung;
 }
 
+const sunder_shape *gis_levels_shape_now(const gis_layer_input *input, const sunder_report *report, size_t i)
+{
+    const size_t level = sunder_report_level(report, i);
+    if (sunder_report_status(report, i) == SUNDER_FEATURE_HIDDEN) return gis_layer_original(input, i);
+    return level ? gis_levels_shape(&input->levels, i, gis_levels_rung(&input->levels, i, level)) : input->shape[i];
+}
+
 /* ---- The cost ---------------------------------------------------------------------------------------------------- */
 
 /* The cost of a smaller shape of feature i: the weight for hiding the feature times the share that it loses, in

@@ -28,5 +28,7 @@ static inline const sunder_shape *gis_levels_shape(const gis_levels *levels, siz
 {
     return levels->shape[i * levels->rungs + rung];
 }
+/* Returns the shape that feature i has in the result; that as read if it is hidden. */
+const sunder_shape *gis_levels_shape_now(const gis_layer_input *input, const sunder_report *report, size_t i);
 
 #endif

@@ -42,6 +42,9 @@ typedef struct gis_result_view {
     /* Fetch a shape or geometry, only for an item that has something to draw. What is lent is valid until the next one
      * is fetched. */
     bool (*shape)(void *of, size_t feature, uint64_t place, const sunder_shape **shape, gis_error *error);
+    /* Returns the shape as it was read, or that of the result if features may become larger or smaller. NULL: they may
+     * not, and shape() has both. */
+    const sunder_shape *(*shape_at)(void *of, size_t feature, bool after);
     bool (*geometry)(void *of, uint64_t place, sunder_obstacle *geometry, gis_error *error);
     /* Fetch FIDs (OGRNullFID: none) and texts: the value of --id-field (NULL: none), or for a barrier the name of its
      * layer. */

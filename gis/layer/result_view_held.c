@@ -1,6 +1,7 @@
 /* result_view_held.c: see result.h. The view of a layer in memory with its report. */
 #include "base/interrupt.h"
 #include "geometry/gis_box.h"
+#include "layer/levels.h"
 #include "layer/result_held.h"
 
 #include <math.h>
@@ -76,6 +77,12 @@ static bool feature_shape(void *of, size_t feature, uint64_t place, const sunder
     return true;
 }
 
+static const sunder_shape *feature_shape_at(void *of, size_t feature, bool after)
+{
+    const gis_result *held = of;
+    return after ? gis_levels_shape_now(held->input, held->of, feature) : gis_layer_original(held->input, feature);
+}
+
 static bool barrier_geometry(void *of, uint64_t place, sunder_obstacle *out, gis_error *error)
 {
     (void)error;
@@ -109,17 +116,9 @@ static void close_nothing(void *of) { (void)of; }
 bool gis_result_held_view(const gis_result *result, gis_result_view *out, gis_error *error)
 {
     (void)error;
-    *out = (gis_result_view){(void *)result,
-                             result->input->n,
-                             result->input->barriers.n,
-                             fill_features,
-                             fill_barriers,
-                             list_conflicts,
-                             list_rows,
-                             feature_shape,
-                             barrier_geometry,
-                             feature_name,
-                             barrier_name,
-                             close_nothing};
+    *out = (gis_result_view){
+        (void *)result, result->input->n, result->input->barriers.n, fill_features,    fill_barriers, list_conflicts,
+        list_rows,      feature_shape,    feature_shape_at,          barrier_geometry, feature_name,  barrier_name,
+        close_nothing};
     return true;
 }

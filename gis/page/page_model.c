@@ -46,6 +46,15 @@ bool gis_page_shape(const gis_page_model *model, size_t feature, const sunder_sh
     return view->shape(view->of, feature, model->feature[feature].place, shape, error);
 }
 
+bool gis_page_shape_at(const gis_page_model *model, size_t feature, bool after, const sunder_shape **shape,
+                       gis_error *error)
+{
+    const gis_result_view *view = model->request->view;
+    if (!view->shape_at) return gis_page_shape(model, feature, shape, error);
+    *shape = view->shape_at(view->of, feature, after);
+    return true;
+}
+
 /* ---- Barriers ---------------------------------------------------------------------------------------------------- */
 
 /* Sorts areas before lines, then by width, so that a picture draws barriers of equal width in one path; ties keep the

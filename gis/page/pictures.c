@@ -43,7 +43,7 @@ static bool add_feature(picture_writer *writer, size_t i, double part, gis_error
     double box[4];
     gis_page_box(feature, part, box);
     if (!feature->vertices || !gis_box_meets(box, writer->picture.window)) return true;
-    return gis_page_shape(writer->model, i, &shape, error) &&
+    return gis_page_shape_at(writer->model, i, part > 0, &shape, error) &&
            gis_picture_add_shape(&writer->picture, shape, move, &writer->scratch, writer->to, error);
 }
 

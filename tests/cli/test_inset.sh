@@ -51,6 +51,13 @@ case $(house_wkt dropped.gpkg left) in *"10 1"*"10 9"* | *"10 9"*"10 1"*) ;; *) 
 expect 3 check dropped.gpkg -l houses "${rules[@]}" --no-blocks --block-field sunder_blk --before d.gpkg --stats c.json
 same "$(jq -c '[.moves.altered, .moves.too_small, .moves.lost, .moves.not_a_translate]' c.json)" '[0,0,1,0]' "the check of a dropped house:"
 
+# A close-up of a hidden house shows its neighbour as it was, and as it became: its front moves in by 1 m.
+expect 0 separate d.gpkg page.gpkg "${rules[@]}" --hierarchy-field class --hide --report page.html
+for when in before after; do
+    sed -n "/<svg class=\"close-up\".*aria-label=\"$when\"/,/<\/svg>/p" page.html | grep -o 'M[^z"]*z' | sort -u >"$when"
+done
+[ -s before ] && [ "$(comm -13 before after | wc -l)" -eq 1 ] || fail "the close-ups: $(comm -3 before after)"
+
 # Fifty rungs; the same bytes for any number of threads.
 many=$(seq -s, 0.05 0.05 2.5)
 expect 0 separate h.gpkg f.csv "${words[@]}" --inset "$many" --lco GEOMETRY=AS_WKT --layers main --threads 1 --stats f.json

@@ -295,6 +295,7 @@ bool gis_shard_run_view(const gis_result *result, gis_result_view *out, gis_erro
                              list_conflicts,
                              list_rows,
                              lend_feature_shape,
+                             NULL, /* shapes do not change */
                              lend_barrier_geometry,
                              feature_name,
                              barrier_name,
