@@ -75,6 +75,20 @@ aside("in-the-way-though-fixed", "neither", {k: {**f, "m": 0} for k, f in NEAR.i
 case("fixed-by-a-proof", "nothing is claimed", NEAR, [conflict(1, 2, "fixed", proof=chain([LEAVE], leaf((0, 0))))],
      lambda problem: problem.may_move(1))
 
+# A feature in a corridor exactly as wide as itself may slide along it: the claims meet in a line, and neither is strict.
+SNUG = {1: box(0, 0, 10, 10, m=1), 2: box(-20, -10, 30, 0, m=0), 3: box(-20, 10, 30, 20, m=0), 4: box(9, 0, 19, 10, m=0)}
+case("corridor-without-a-wall", "no contradiction", SNUG, [conflict(1, 4, "no_room", blocked_by=[2, 3], proof=chain(
+    [asked(1, 2, part(SNUG[1]), part(SNUG[2]), first(ways_out(-30, 0, 30, 20), 3), clearance=0),
+     asked(1, 3, part(SNUG[1]), part(SNUG[3]), first(ways_out(-30, -20, 30, 0), 2), clearance=0)], leaf((0, 0), (1, 0))))], {1: (-1, 0)})
+# A wall with sides that begins on that line allows moves away from it. It shuts the case beyond its border (the last leaf),
+# since it is closed; but moves behind its border may be on it.
+WALL_FROM_THE_LINE = [((0, 1), 0), ((1, 0), -15, leaf((2, 0, 1, True), (1, 0))), ((5, -15), 0, leaf((2, 1, 1, True)))]
+case("behind-a-closed-border", "no contradiction", SNUG, [conflict(1, 4, "no_room", blocked_by=[2, 3, "w:1"], proof=chain(
+    [asked(1, 2, part(SNUG[1]), part(SNUG[2]), first(ways_out(-30, 0, 30, 20), 3), clearance=0),
+     asked(1, 3, part(SNUG[1]), part(SNUG[3]), first(ways_out(-30, -20, 30, 0), 2), clearance=0),
+     asked(1, "w:1", [[5, 5]], [[20, 5], [20, 10]], WALL_FROM_THE_LINE, shadow=True)], leaf((0, 0), (2, 0))))], {1: (-1, 0)},
+    barriers={"w": ({1: line((20, 5), (20, 10))}, "side=yes")})
+
 # Two listed features that overlap by 8. A slack of 8 separates them, so nothing has to move.
 DEEP = {1: box(0, 0, 10, 10, m=0.125), 2: box(2, 0, 12, 10, m=0.125)}
 THERE, BACK = ways_out(-12, -10, 8, 10), ways_out(-8, -10, 12, 10)

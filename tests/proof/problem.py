@@ -456,7 +456,7 @@ class Problem:
         if any(plane.on_edge(e, p) and plane.on_edge(e, q) for e in lines):
             demand(not any(plane.on_edge(e, at) for e in lines), "the side anchor of", feature, "lies on", key)
             return p, q
-        areas = [o for o in thing.outlines if any(plane.on_edge(e, p) and plane.on_edge(e, q) for e in o.edges)]
+        areas = [o for o in thing.outlines if are_joined(o.edges, p, q)]
         middle, along = (p[0] + q[0], p[1] + q[1]), (q[0] - p[0], q[1] - p[1])
         demand(any(plane.on_its_left(o.scaled(2), middle, along) for o in areas) and plane.side(p, q, at) < 0,
                "a side that is none of", key, "or faces away from", feature)
@@ -530,6 +530,18 @@ class Problem:
         for x, y in self.ways_inside(a, b):
             out = x * x + y * y > square if square is not None else reach is not None and max(x, y) > reach
             demand(out, a, "and", b, "may come to lie in each other")
+
+
+def are_joined(edges, p, q):
+    """Do edges on the line through p and q cover the segment between the two?"""
+    def along(x):
+        return (x[0] - p[0]) * (q[0] - p[0]) + (x[1] - p[1]) * (q[1] - p[1])
+    spans = sorted(sorted(map(along, e)) for e in edges if plane.side(p, q, e[0]) == 0 and plane.side(p, q, e[1]) == 0)
+    reached = 0
+    for low, high in spans:
+        if low <= reached:
+            reached = max(reached, high)
+    return reached >= along(q) and p != q
 
 
 def turn(p, q, u):

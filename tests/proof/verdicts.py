@@ -269,10 +269,18 @@ class Verdict:
             unit *= 2
         return unit
 
+    def is_strict(self, force):
+        """Does n.u > d follow, not only n.u >= d? The sides of barriers are closed: what is not in their shadow is strictly
+        beyond a line. What is behind a line of anything else is not on it."""
+        node = self.nodes[force["node"]]
+        closed = bool(node.get("shadow")) and self.problem.is_barrier(node["b"])
+        return bool(force["behind"]) != closed
+
     def wins(self, leaf):
-        """Is the sum of the forces greater than the greatest loss by the limits? In fractions, since products of
-        doubles may underflow."""
+        """Is the sum of the forces greater than the greatest loss by the limits, or equal to it where a force is strict?
+        In fractions, since products of doubles may underflow."""
         won, net = Fraction(0), {}
+        strict = any(Fraction(f["force"]) > 0 and self.is_strict(f) for f in leaf["forces"])
         for f in leaf["forces"]:
             node = self.nodes[f["node"]]
             way, sign = node["ways"][f["way"]], -1 if f["behind"] else 1
@@ -294,7 +302,7 @@ class Verdict:
             if limit is None:
                 return False
             lost += Fraction(limit) * root_above(x * x + y * y)
-        return won > lost
+        return won > lost or (strict and won == lost)
 
     def body_of(self, key):
         return key if self.problem.is_barrier(key) else self.problem.block(key)

@@ -113,11 +113,21 @@ static void sum_lost(const checking *c, const sunder_proof_node *leaf, size_t st
     vec_clear(&net);
 }
 
+/* Does m.u > h follow from the force, not only m.u >= h? The sides of barriers are closed: what is not in their shadow is
+ * strictly beyond a line. What is behind a line of anything else is not on it. */
+static bool is_strict(const checking *c, const sunder_proof_force *force)
+{
+    const sunder_proof_node *node = &c->proof->node[force->node];
+    const bool closed = node->shadow && node->b >= c->n;
+    return force->behind != closed;
+}
+
 const char *proof_check_leaf(const checking *c, const sunder_proof_node *leaf, size_t depth)
 {
     mpq_t won, lost, f, d;
     mpq_inits(won, lost, f, d, NULL);
     size_t still = SIZE_MAX;
+    bool strict = false;
     const char *wrong = leaf->still ? proof_check_still(c, leaf, depth, &still) : NULL;
     for (size_t k = 0; k < leaf->forces && !wrong; k++) {
         const sunder_proof_force *force = &c->proof->force[leaf->force + k];
@@ -134,9 +144,11 @@ const char *proof_check_leaf(const checking *c, const sunder_proof_node *leaf, s
         mpq_set_d(d, force->behind ? -c->proof->way[force->way].d : c->proof->way[force->way].d);
         mpq_mul(f, f, d);
         mpq_add(won, won, f);
+        strict = strict || is_strict(c, force);
     }
     sum_lost(c, leaf, still, lost);
-    if (!wrong && mpq_cmp(won, lost) <= 0) wrong = "a leaf is no contradiction";
+    const int more = mpq_cmp(won, lost);
+    if (!wrong && (more < 0 || (more == 0 && !strict))) wrong = "a leaf is no contradiction";
     mpq_clears(won, lost, f, d, NULL);
     return wrong;
 }

@@ -176,6 +176,10 @@ bool sunder_i_branching_push(sunder_i_branching *branching, uint32_t i, uint32_t
                           sizeof *branching->claim))
         return false;
     const sunder_i_half_plane *w = &branching->half_plane[half_plane];
+    const sunder_i_node *of = &branching->node[node];
+    /* A side is closed: what is not in its shadow is strictly beyond a line. What is behind a line of anything else is
+     * not on it. */
+    const bool closed = of->shadow && sunder_i_is_barrier(branching->model, of->b);
     const double sign = behind ? -1 : 1;
     SUNDER_I_ASSERT(level < SUNDER_I_LEVELS && i < branching->bodies &&
                     (j < branching->bodies || j == SUNDER_I_GROUND) && i != j);
@@ -186,6 +190,7 @@ bool sunder_i_branching_push(sunder_i_branching *branching, uint32_t i, uint32_t
                                                              .node = node,
                                                              .half_plane = half_plane,
                                                              .behind = behind,
+                                                             .strict = behind != closed,
                                                              .level = level};
     return true;
 }

@@ -30,6 +30,7 @@
 #include "displacement/layer/barrier_pairs.h"
 #include "displacement/layer/reads.h"
 #include "displacement/prove/proofs/branching.h"
+#include "displacement/prove/proofs/exact_line.h"
 #include "displacement/prove/proofs/tuning.h"
 
 #include "shape/shape.h"
@@ -42,23 +43,10 @@
 
 /* ---- Exact arithmetic ------------------------------------------------------------------------------------------ */
 
-/* Sets *out to q - p. Returns false if that is not a double. The rounding error of a difference is itself a double
- * [Knu97, 4.2.2]. */
-static bool subtract_exactly(double q, double p, double *out)
+static bool are_parallel(const double m[2], const double n[2])
 {
-    const double s = q - p, back = s - q;
-    *out = s;
-    return isfinite(s) && (q - (s - back)) - (p + back) == 0;
+    return sunder_i_are_equal_products(m[0], n[1], m[1], n[0]);
 }
-
-/* Is p q - r s = 0, exactly? */
-static bool are_equal_products(double p, double q, double r, double s)
-{
-    const double a = p * q, b = r * s;
-    return a == b && fma(p, q, -a) == fma(r, s, -b);
-}
-
-static bool are_parallel(const double m[2], const double n[2]) { return are_equal_products(m[0], n[1], m[1], n[0]); }
 
 static double dot_product(const double p[2], const double q[2]) { return p[0] * q[0] + p[1] * q[1]; }
 
@@ -148,7 +136,7 @@ static bool normal_of(const facing *f, size_t k, double n[2])
     const double *xy = of_a ? f->a : f->b, *p = xy + 2 * (of_a ? k : k - na),
                  *q = xy + 2 * (of_a ? (k + 1) % na : (k - na + 1) % nb);
     double x, y;
-    const bool exact_x = subtract_exactly(q[0], p[0], &x), exact_y = subtract_exactly(q[1], p[1], &y);
+    const bool exact_x = sunder_i_subtract_exactly(q[0], p[0], &x), exact_y = sunder_i_subtract_exactly(q[1], p[1], &y);
     n[0] = of_a ? y : -y;
     n[1] = of_a ? -x : x;
     return exact_x && exact_y;
@@ -231,9 +219,11 @@ static bool is_extreme(const double *xy, size_t corners, const double n[2], cons
 {
     for (size_t k = 0; k < corners; k++) {
         double d[2];
-        if (!subtract_exactly(xy[2 * k], at[0], &d[0]) || !subtract_exactly(xy[2 * k + 1], at[1], &d[1])) return false;
+        if (!sunder_i_subtract_exactly(xy[2 * k], at[0], &d[0]) ||
+            !sunder_i_subtract_exactly(xy[2 * k + 1], at[1], &d[1]))
+            return false;
         const double size = fabs(n[0] * d[0]) + fabs(n[1] * d[1]);
-        if (dot_product(n, d) < -0x1p-50 * size || are_equal_products(n[0], d[0], -n[1], d[1])) continue;
+        if (dot_product(n, d) < -0x1p-50 * size || sunder_i_are_equal_products(n[0], d[0], -n[1], d[1])) continue;
         return false;
     }
     return true;
@@ -254,8 +244,8 @@ static bool is_far_line(const sunder_i_branching *c, facing *f, size_t k, const 
     const double *p = farthest_corner(f->a, f->wall.a->corners, n, 1),
                  *q = farthest_corner(f->b, f->wall.b->corners, n, -1);
     scale_normal(n);
-    if (!is_extreme(hull, corners, n, p) || !subtract_exactly(p[0], q[0], &d[0]) ||
-        !subtract_exactly(p[1], q[1], &d[1]))
+    if (!is_extreme(hull, corners, n, p) || !sunder_i_subtract_exactly(p[0], q[0], &d[0]) ||
+        !sunder_i_subtract_exactly(p[1], q[1], &d[1]))
         return false;
     f->wall.d = dot_product(n, d) - 0x1p-48 * (fabs(n[0] * d[0]) + fabs(n[1] * d[1]));
     return true;

@@ -63,6 +63,7 @@ static sunder_status take_plane_solution(const sunder_i_branching *c, const sund
 /* The result of a question about one relative move. */
 typedef struct plane_answers {
     bool free;       /* there is a place where nothing is forbidden */
+    bool seam;       /* as in sunder_i_plane_answer */
     double place[2]; /* if free: that place */
 } plane_answers;
 
@@ -77,6 +78,7 @@ static sunder_status decide_in_plane(const sunder_i_subproblem *subproblem, cons
         places ? sunder_i_branching_plane_try(&c, places, n, &answer, err) : sunder_i_branching_plane(&c, &answer, err);
     decision->verdict = answer.verdict;
     told->free = answer.free;
+    told->seam = answer.seam;
     memcpy(told->place, answer.u, sizeof told->place);
     if (!status && answer.verdict == SUNDER_I_INFEASIBLE) {
         decision->proof = sunder_i_proof_of(&c, answer.root);
@@ -90,7 +92,28 @@ static sunder_status decide_in_plane(const sunder_i_subproblem *subproblem, cons
     return status;
 }
 
-/* Decides with coarse half-planes first, if requested, and with exact ones if these leave a free place. */
+/* Looks for a proof by lines without a rounding error, where others left only a seam or the border of something closed.
+ * Otherwise the answer does not change. */
+static sunder_status ask_exactly(const sunder_i_subproblem *subproblem, sunder_i_decision *decision,
+                                 plane_answers *told, sunder_error *err)
+{
+    sunder_i_subproblem exactly = *subproblem;
+    sunder_i_decision sharper = {.fine_plane = true, .work = decision->work};
+    plane_answers answers;
+    exactly.coarse = 0;
+    exactly.exact = true;
+    exactly.planes = NULL;
+    const sunder_status status = decide_in_plane(&exactly, NULL, 0, &sharper, &answers, err);
+    const bool better = !status && sharper.verdict == SUNDER_I_INFEASIBLE;
+    decision->work = sharper.work;
+    if (better) *told = answers;
+    sunder_i_decision_clear(better ? decision : &sharper);
+    if (better) *decision = sharper;
+    return status;
+}
+
+/* Decides with coarse half-planes first, if requested, and with fine ones if these leave a free place; and with lines
+ * without a rounding error if no more than a seam is left. */
 static sunder_status ask_all(const sunder_i_subproblem *subproblem, sunder_i_decision *decision, plane_answers *told,
                              sunder_error *err)
 {
@@ -106,7 +129,8 @@ static sunder_status ask_all(const sunder_i_subproblem *subproblem, sunder_i_dec
         decision->fine_plane = true;
     }
     if (!status && decision->fine_plane) status = decide_in_plane(&closely, NULL, 0, decision, told, err);
-    return status;
+    if (status || decision->verdict == SUNDER_I_INFEASIBLE || !told->seam) return status;
+    return ask_exactly(subproblem, decision, told, err);
 }
 
 /* Tries to answer by an earlier answer: its free places, then the things of its proof. */

@@ -75,6 +75,7 @@ typedef struct sunder_i_subproblem {
     bool row_listed;         /* for the two in question it is that of a listed pair */
     double instead;          /* > 0: a limit for bodies that have none; else the question is not examined */
     bool no_plane;           /* the plane of one relative move was examined before, without an answer */
+    bool exact;              /* lines without a rounding error, and the border of what is closed, are told apart */
     bool fine_plane;         /* coarse half-planes give no answer there: they are skipped */
     sunder_i_planes *planes; /* NULL, or a cache for questions about the same bodies */
     /* NULL, or earlier results, which are tried first: then any solution, and any proof, may be returned. */

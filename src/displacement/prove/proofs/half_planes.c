@@ -31,6 +31,7 @@
  * offset up to a share of the square of the tilt, an arc's up to the tilt itself. */
 #include "displacement/prove/proofs/half_planes.h"
 #include "displacement/geometry/obstacle.h"
+#include "displacement/prove/proofs/exact_line.h"
 
 #include "convex/merge.h"
 
@@ -68,13 +69,17 @@ typedef struct walk {
 
 static double dot_product(const double p[2], const double q[2]) { return p[0] * q[0] + p[1] * q[1]; }
 
+static void add_line(walk *w, const sunder_i_half_plane *line)
+{
+    if (!(dot_product(line->n, w->inner) < line->base - w->slack)) w->holds = false;
+    w->half_plane[w->n++] = *line;
+}
+
 /* Adds the half-plane n.u >= base - slack + by * clearance. */
 static void add_half_plane(walk *w, const double n[2], double base, double by)
 {
     const double d = base - w->slack;
-    if (!(dot_product(n, w->inner) < d - w->slack)) w->holds = false;
-    w->half_plane[w->n++] =
-        (sunder_i_half_plane){.n = {n[0], n[1]}, .d = d + by * w->parting->clearance, .base = d, .by = by};
+    add_line(w, &(sunder_i_half_plane){.n = {n[0], n[1]}, .d = d + by * w->parting->clearance, .base = d, .by = by});
 }
 
 /* A run: consecutive edges of K that share one line, that of their chord. */
@@ -82,6 +87,7 @@ typedef struct run {
     double corner[2 * (MOST_IN_RUN + 1)];
     size_t edges;
     side first, last;
+    bool exact; /* its corners have no rounding error */
 } run;
 
 static void begin_run(run *r, const double from[2], const double to[2], const side *s)
@@ -107,6 +113,18 @@ static void join_runs(run *r, const run *next)
     memcpy(r->corner + 2 * (r->edges + 1), next->corner + 2, 2 * next->edges * sizeof *r->corner);
     r->edges += next->edges;
     r->last = next->last;
+    r->exact = r->exact && next->exact;
+}
+
+/* Sets *line to the line through the ends of a run, without a rounding error. Returns false unless doubles hold it, and
+ * every corner of the run is on it or beyond it, exactly. */
+static bool find_exact_line(const walk *w, const run *r, sunder_i_half_plane *line)
+{
+    double at;
+    bool exact = r->exact && sunder_i_exact_line(r->corner, r->corner + 2 * r->edges, w->parting->clearance, line);
+    for (size_t k = 1; k < r->edges && exact; k++)
+        exact = sunder_i_dot_exactly(line->n, r->corner + 2 * k, &at) && at >= line->base;
+    return exact;
 }
 
 /* Adds the line of a run. Every corner of the run is beyond it, and so is everything at the gap's distance from it
@@ -116,6 +134,11 @@ static void add_run(walk *w, const run *r)
     const double *p = r->corner, *q = r->corner + 2 * r->edges;
     const double length = hypot(q[0] - p[0], q[1] - p[1]);
     side s = r->first;
+    sunder_i_half_plane line;
+    if (find_exact_line(w, r, &line)) {
+        add_line(w, &line);
+        return;
+    }
     if (r->edges > 1) {
         s.n[0] = (q[1] - p[1]) / length;
         s.n[1] = (p[0] - q[0]) / length;
@@ -241,9 +264,16 @@ static void measure_sizes(walk *w)
     w->slack = UNIT * w->size;
 }
 
-static void corner_of_sum(const sunder_i_parting *p, size_t a, size_t b, double out[2])
+/* Sets out to a corner of K. Returns whether it has no error. */
+static bool corner_of_sum(const sunder_i_parting *p, size_t a, size_t b, double out[2])
 {
-    for (size_t c = 0; c < 2; c++) out[c] = p->a[2 * a + c] - p->b[2 * b + c] - p->offset[c];
+    bool exact = p->exact;
+    for (size_t c = 0; c < 2; c++) {
+        double d;
+        exact = sunder_i_subtract_exactly(p->a[2 * a + c], p->b[2 * b + c], &d) && exact;
+        exact = sunder_i_subtract_exactly(d, p->offset[c], &out[c]) && exact;
+    }
+    return exact;
 }
 
 size_t sunder_i_half_planes_between(const sunder_i_parting *parting, sunder_i_half_plane *out)
@@ -257,18 +287,19 @@ size_t sunder_i_half_planes_between(const sunder_i_parting *parting, sunder_i_ha
     sunder_i_merge m = sunder_i_merge_of((uint32_t)parting->na, (uint32_t)parting->nb);
     run first = {.edges = 0}, last = first;
     double from[2], to[2];
-    corner_of_sum(parting, a0, b0, from);
-    for (;; from[0] = to[0], from[1] = to[1]) {
+    bool from_exact = corner_of_sum(parting, a0, b0, from), to_exact;
+    for (;; from[0] = to[0], from[1] = to[1], from_exact = to_exact) {
         const size_t a = (a0 + m.next_a) % parting->na, a1 = (a + 1) % parting->na, b = (b0 + m.next_b) % parting->nb,
                      b1 = (b + 1) % parting->nb;
         const double u[2] = {parting->a[2 * a1] - parting->a[2 * a], parting->a[2 * a1 + 1] - parting->a[2 * a + 1]};
         const double v[2] = {parting->b[2 * b] - parting->b[2 * b1], parting->b[2 * b + 1] - parting->b[2 * b1 + 1]};
         if (!SUNDER_I_MERGE_NEXT(&m, sunder_i_turns_first(u, v) ? -1 : 1)) break;
         const double *e = m.of_a ? u : v, length = sqrt(dot_product(e, e));
-        corner_of_sum(parting, (a0 + m.next_a) % parting->na, (b0 + m.next_b) % parting->nb, to);
+        to_exact = corner_of_sum(parting, (a0 + m.next_a) % parting->na, (b0 + m.next_b) % parting->nb, to);
         if (!(length > 0)) continue;
         run now;
         begin_run(&now, from, to, &(side){{e[1] / length, -e[0] / length}, w.slack / length});
+        now.exact = from_exact && to_exact;
         take_run(&w, &first, &last, &now);
     }
     if (last.edges) end_runs(&w, &first, &last);

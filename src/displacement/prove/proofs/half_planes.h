@@ -2,6 +2,7 @@
 #ifndef SUNDER_I_HALF_PLANES_H
 #define SUNDER_I_HALF_PLANES_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 /* Two convex polygons, counter-clockwise, each relative to an origin, and the distance that they have to keep: to be
@@ -16,14 +17,16 @@ typedef struct sunder_i_parting {
     double clearance;
     const double *at; /* NULL, or a relative move at which the lines must decide whether the clearance is kept */
     double coarse;    /* the distance by which lines may demand less, so that one can replace several */
+    bool exact; /* corners and offset have no errors at all; then edges demand no less than they have to where doubles
+                 * hold their lines (exact_line.h) */
 } sunder_i_parting;
 
 /* A half-plane of relative moves u of B. Moves in any one of the half-planes of a pair separate the two. */
 typedef struct sunder_i_half_plane {
-    double n[2], d; /* the half-plane is n.u >= d; n has length 1 within 2^-51 */
+    double n[2], d;  /* the half-plane is n.u >= d; n has length 1 within 2^-51 */
     double base, by; /* d is base + by * clearance, for all clearances of one sign, if coarse and at are the same */
-    double at;      /* n.u - d at the given relative move */
-    size_t next;    /* in a proof: the node for this case */
+    double at;       /* n.u - d at the given relative move */
+    size_t next;     /* in a proof: the node for this case */
 } sunder_i_half_plane;
 
 /* At a corner the lines that are not made for a given place demand less than the clearance, by up to this share. */

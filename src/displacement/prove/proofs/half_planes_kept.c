@@ -5,6 +5,7 @@
  * the table begins small and doubles when half of its slots are taken. The cache only saves time: the half-planes are
  * the same, and their cost is counted the same. */
 #include "displacement/prove/proofs/branching.h"
+#include "displacement/prove/proofs/exact_line.h"
 #include "displacement/prove/proofs/tuning.h"
 
 #include "base/extremes.h"
@@ -26,6 +27,27 @@ static double coarse_for(const sunder_i_branching *c, const sunder_i_body *p, co
     return isfinite(reach) ? c->subproblem->coarse * reach : 0;
 }
 
+/* Are the corners of the piece, relative to the origin of its body, the corners as given without a rounding error? */
+static bool is_exact(const sunder_i_model *model, const sunder_i_body *body, const sunder_i_body_piece *piece)
+{
+    double given[2 * WALL_CORNERS], d;
+    if (is_vague(model, piece->feature) || piece->corners > WALL_CORNERS) return false;
+    sunder_i_piece_as_given(model, piece, given);
+    for (size_t k = 0; k < 2 * piece->corners; k++)
+        if (!sunder_i_subtract_exactly(given[k], body->origin[k & 1], &d) || d != piece->corner[k]) return false;
+    return true;
+}
+
+/* Are all differences of corners of the two known exactly, if that is asked for? */
+static bool are_exact(const sunder_i_branching *c, const sunder_i_body *p, const sunder_i_body_piece *a,
+                      const sunder_i_body *q, const sunder_i_body_piece *b)
+{
+    double d;
+    return c->subproblem->exact && sunder_i_subtract_exactly(q->origin[0], p->origin[0], &d) &&
+           sunder_i_subtract_exactly(q->origin[1], p->origin[1], &d) && is_exact(c->model, p, a) &&
+           is_exact(c->model, q, b);
+}
+
 size_t sunder_i_branching_fill_half_planes(sunder_i_branching *branching, const sunder_i_body *p,
                                            const sunder_i_body_piece *a, const sunder_i_body *q,
                                            const sunder_i_body_piece *b, double clearance, bool shadow,
@@ -39,7 +61,8 @@ size_t sunder_i_branching_fill_half_planes(sunder_i_branching *branching, const 
                                 .offset = {q->origin[0] - p->origin[0], q->origin[1] - p->origin[1]},
                                 .clearance = clearance,
                                 .at = at,
-                                .coarse = coarse_for(branching, p, q)};
+                                .coarse = coarse_for(branching, p, q),
+                                .exact = are_exact(branching, p, a, q, b)};
     for (int x = 0; x < 4; x++) {
         if (is_vague(model, a->feature)) parting.vague += fabs(p->origin[x & 1]) + fabs(a->box[x]);
         if (is_vague(model, b->feature)) parting.vague += fabs(q->origin[x & 1]) + fabs(b->box[x]);
@@ -165,9 +188,11 @@ static bool keep_half_planes(sunder_i_branching *c, slot *here, const sunder_i_b
     return true;
 }
 
-/* Are the half-planes in this slot those that are asked for, apart from the amount of the clearance? */
-static bool is_kept(const slot *here, const slot *asked)
+/* Are the half-planes in this slot those that are asked for, apart from the amount of the clearance? With `exact` it
+ * has to be the same, since lines without a rounding error are not moved. */
+static bool is_kept(const slot *here, const slot *asked, bool exact)
 {
+    if (exact && here->clearance != asked->clearance) return false;
     return here->a == asked->a && here->b == asked->b && here->shadow == asked->shadow &&
            here->coarse == asked->coarse && (here->clearance > 0) == (asked->clearance > 0) &&
            (here->clearance < 0) == (asked->clearance < 0) && sunder_i_stage_is_on("memo", "half planes");
@@ -192,7 +217,7 @@ const sunder_i_half_plane *sunder_i_branching_kept_half_planes(sunder_i_branchin
         .a = a, .b = b, .clearance = clearance, .coarse = coarse_for(branching, p, q), .shadow = shadow};
     *n = 0;
     slot *here = find_slot(kept, a, b);
-    if (here && is_kept(here, &asked)) {
+    if (here && is_kept(here, &asked, subproblem->exact)) {
         branching->looked += a->corners + b->corners;
         set_clearance(here, clearance);
     } else if (!here || !keep_half_planes(branching, here, p, q, &asked)) {

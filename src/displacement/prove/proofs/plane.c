@@ -20,12 +20,20 @@
 
 /* ---- Division ---------------------------------------------------------------------------------------------------- */
 
+/* Does the claim leave nothing, or only a line that something closed covers, together with its opposite? */
+static bool is_shut(sunder_i_plane *g, uint32_t claim)
+{
+    return g->c->subproblem->exact && sunder_i_branching_is_shut(g->c, claim, g->thin > 0);
+}
+
 /* Is it proved that the claim and the claims of two sides, or some of them, contradict the limits? */
 static bool contradicts_limits(sunder_i_plane *g, uint32_t claim, const uint32_t by[2])
 {
     sunder_i_branching *c = g->c;
     g->c->looked += 4;
-    if (c->claim[claim].d > g->reach && sunder_i_branching_contradict(c, &claim, 1)) return true;
+    if (is_shut(g, claim)) return true;
+    if ((c->claim[claim].d > g->reach || c->subproblem->exact) && sunder_i_branching_contradict(c, &claim, 1))
+        return true;
     const uint32_t all[3] = {claim, by[0], by[1]};
     for (size_t k = 0; k < 2; k++) {
         const uint32_t two[2] = {claim, by[k]};
@@ -80,12 +88,17 @@ static bool any_contradict(sunder_i_plane *g, uint32_t claim, uint32_t by[2])
  *
  * If pieces touch, as the parts of a house do, two claims may leave a line or a point: no area, and no contradiction. A
  * piece that covers the common boundary of the two shows that it is forbidden, if the claims are taken to say slightly
- * less, here and in no proof. */
+ * less, here and in no proof. A piece that only begins there shows it if it is closed, and if all three lines are exact
+ * (subproblem->exact). */
 static bool keep_side(sunder_i_plane *g, sunder_i_plane_region *r, const double n[2], double d, uint32_t claim,
                       uint32_t by[2], unsigned *thin)
 {
+    by[0] = by[1] = SUNDER_I_NO_CLAIM;
+    if (is_shut(g, claim)) return false;
     if (sunder_i_plane_clip(r, n, d, claim, by)) return true;
-    if (any_contradict(g, claim, by) || g->thin + *thin >= MOST_SLIVERS) return false;
+    if (any_contradict(g, claim, by)) return false;
+    g->seam = true;
+    if (g->thin + *thin >= MOST_SLIVERS) return false;
     if (!sunder_i_plane_clip(r, n, d - ldexp(SLIVER * g->reach, -(int)(g->thin + *thin)), claim, by)) return false;
     ++*thin;
     return true;
@@ -242,6 +255,7 @@ static sunder_status divide_region(sunder_i_plane *g, const sunder_i_plane_regio
         if (c->failed) return sunder_i_failure_cause(err);
         if (g->thin) return SUNDER_OK; /* a sliver is forbidden, up to rounding */
         *verdict = SUNDER_I_FEASIBLE;
+        g->seam = sunder_i_plane_is_at_border(g, middle);
         memcpy(g->free, middle, sizeof middle);
         return SUNDER_OK;
     }
@@ -306,6 +320,7 @@ static void end_plane(sunder_i_branching *c, sunder_i_plane *g, sunder_i_planes 
     answer->q = g->q;
     memcpy(answer->u, g->free, sizeof g->free);
     answer->free = answer->verdict == SUNDER_I_FEASIBLE;
+    answer->seam = g->seam;
     if (answer->free && !is_all(c, g)) answer->verdict = SUNDER_I_UNKNOWN;
     sunder_i_planes_clear(own);
     sunder_i_free_all(g->run, g->place, g->few, g->fresh);
@@ -341,7 +356,9 @@ sunder_status sunder_i_branching_plane_try(sunder_i_branching *branching, const 
     const bool ok = begin_plane(branching, &g, &own);
     for (size_t k = 0; k < n && ok && !branching->failed && answer->verdict == SUNDER_I_UNKNOWN; k++) {
         sunder_i_violation missed;
-        if (!sunder_i_plane_is_free(&g, at[k]) || find_row(&g, at[k], &missed)) continue;
+        if (!sunder_i_plane_is_free(&g, at[k]) || find_row(&g, at[k], &missed) ||
+            sunder_i_plane_is_at_border(&g, at[k]))
+            continue;
         answer->verdict = SUNDER_I_FEASIBLE;
         memcpy(g.free, at[k], sizeof g.free);
     }

@@ -110,6 +110,7 @@ typedef struct sunder_i_plane {
     sunder_i_plane_item *fresh;          /* obstacles that are forbidden now but were not in that question */
     size_t freshes, fresh_capacity;
     sunder_i_plane_choices made; /* the choices of the present question */
+    bool seam;                   /* two claims left a line or a point of a region */
     unsigned thin;               /* the number of times that the present region was only a sliver */
     double free[2];              /* a free place, if that is the answer */
 } sunder_i_plane;
@@ -208,6 +209,8 @@ const sunder_i_plane_obstacle *sunder_i_plane_choose(sunder_i_plane *plane, cons
 /* Returns the first obstacle that contains the place u by half-planes made for u; these are then in c->scratch. */
 const sunder_i_plane_obstacle *sunder_i_plane_choose_closely(sunder_i_plane *plane, const double u[2],
                                                              size_t *half_planes);
+/* Is the place u within two hairs of something closed, or in it? */
+bool sunder_i_plane_is_at_border(sunder_i_plane *plane, const double u[2]);
 /* Is the place u in no obstacle? */
 bool sunder_i_plane_is_free(sunder_i_plane *plane, const double u[2]);
 

@@ -41,9 +41,22 @@ static double shared_area(const sunder_i_plane *g, const sunder_i_plane_obstacle
 
 /* The best obstacle to divide a region by, up to now. */
 typedef struct choice {
-    double box[4], whole, about, share;
+    double box[4], whole, share;
+    double about[2]; /* the distance around the place that an obstacle has to contain: a piece; a shadow */
     const sunder_i_plane_obstacle *best;
 } choice;
+
+/* Is the region beyond a line of this obstacle? Then it cannot be divided by it, although it may be within
+ * SHADOW_BORDER. */
+static bool is_beyond(const sunder_i_branching *c, const sunder_i_plane_obstacle *o)
+{
+    for (size_t k = 0; k < c->claims && c->subproblem->exact; k++) {
+        const sunder_i_node *node = &c->node[c->claim[k].node];
+        if (!c->claim[k].behind && node->part_a == o->a && node->part_b == o->b && node->shadow == o->shadow)
+            return true;
+    }
+    return false;
+}
 
 /* Replaces the best obstacle by this one if it contains the place u and covers more of the region; of equal ones the
  * one found first is kept. */
@@ -53,7 +66,7 @@ static void weigh_obstacle(sunder_i_plane *g, const sunder_i_plane_region *r, co
     if (most_shared(to->box, item->box) < to->share) return;
     const sunder_i_plane_obstacle *o = &g->kept->obstacle[item->at];
     if (to->best && to->share >= to->whole && o->rank > to->best->rank) return;
-    if (!holds_around(g, item, u, to->about)) return;
+    if (is_beyond(g->c, o) || !holds_around(g, item, u, to->about[o->shadow])) return;
     const double share = sunder_i_min(shared_area(g, o, r), to->whole);
     if (share < to->share || (to->best && share == to->share && o->rank > to->best->rank)) return;
     to->share = share;
@@ -70,9 +83,9 @@ const sunder_i_plane_obstacle *sunder_i_plane_choose(sunder_i_plane *plane, cons
     for (uint32_t k = 0; k < region->n; k++) sunder_i_box_include(to.box, region->xy + 2 * k);
     to.whole = sunder_i_plane_area(region) * (1 - 0x1p-30); /* an obstacle that covers at least this area covers the
                                                              * whole region */
-    if (plane->thin)
-        to.about = 2 * SLIVER * plane->reach; /* an obstacle that begins at the common boundary of two
-                                                             * others does not cover it */
+    if (plane->thin) /* what begins at the common boundary of two others does not cover it */
+        to.about[0] = to.about[1] = 2 * SLIVER * plane->reach;
+    if (c->subproblem->exact) to.about[1] = -SHADOW_BORDER * plane->reach; /* what is closed covers it by its border */
     if (known) {
         to.share = known->share;
         to.best = known->obstacle == SUNDER_I_NO_CHOICE ? NULL : &plane->kept->obstacle[known->obstacle];
@@ -121,6 +134,22 @@ const sunder_i_plane_obstacle *sunder_i_plane_choose_closely(sunder_i_plane *pla
                 return &kept->obstacle[k];
     }
     return NULL;
+}
+
+bool sunder_i_plane_is_at_border(sunder_i_plane *plane, const double u[2])
+{
+    const struct sunder_i_plane_kept *kept = plane->kept;
+    const double hair = 2 * plane->c->hair;
+    bool found = false;
+    for (size_t r = 0; r < plane->runs && !found; r++) {
+        const sunder_i_plane_run *run = &kept->run[plane->run[r]];
+        for (size_t k = run->first; k < run->end && run->shadow && !found; k++) {
+            sunder_i_plane_item item = {.at = (uint32_t)k};
+            sunder_i_box_grow(kept->box + 4 * k, hair, item.box);
+            found = sunder_i_plane_is_in(item.box, u) && holds_around(plane, &item, u, -hair);
+        }
+    }
+    return found && !plane->c->failed;
 }
 
 bool sunder_i_plane_is_free(sunder_i_plane *plane, const double u[2])

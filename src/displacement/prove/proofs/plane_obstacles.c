@@ -215,6 +215,9 @@ bool sunder_i_plane_find(const sunder_i_plane *plane, struct sunder_i_plane_kept
 
 /* ---- Which obstacles are forbidden ------------------------------------------------------------------------------- */
 
+/* The share of the limits by which the boxes of obstacles are larger: above rounding, or what plane_choose.c adds. */
+static double more_of_box(const sunder_i_plane *g) { return g->c->subproblem->exact ? SHADOW_BORDER : BOX_MARGIN; }
+
 /* Computes a box such that every relative move within the limits outside of it is outside the obstacle. The obstacle is
  * A + (-B) grown by its clearance, or a shadow: the part of it up to a bounded multiple of its distance. */
 void sunder_i_plane_bound(const sunder_i_plane *plane, const sunder_i_plane_obstacle *obstacle, double clearance,
@@ -231,7 +234,7 @@ void sunder_i_plane_bound(const sunder_i_plane *plane, const sunder_i_plane_obst
         square += off * off;
     }
     const double times = obstacle->shadow ? far / sqrt(square) : 1,
-                 margin = sunder_i_max(obstacle->shadow ? 0 : clearance, 0) + BOX_MARGIN * far;
+                 margin = sunder_i_max(obstacle->shadow ? 0 : clearance, 0) + more_of_box(plane) * far;
     for (uint32_t x = 0; x < 2; x++) {
         if (times > 1) {
             if (box[x] < 0) box[x] *= times;
@@ -278,7 +281,7 @@ bool sunder_i_plane_make_half_planes(sunder_i_plane *plane, size_t at)
         plane->c->failed = true;
         return false;
     }
-    memcpy(kept->box + 4 * at, box, sizeof box);
+    sunder_i_box_grow(box, more_of_box(plane) * plane->reach, kept->box + 4 * at);
     o->half_plane = kept->half_planes;
     o->half_planes = half_planes;
     kept->half_planes += half_planes;

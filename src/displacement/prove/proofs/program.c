@@ -6,13 +6,16 @@
  *     sum of f d  >  sum over the bodies of L |sum of f n, with the sign of the body's side of the pair|,
  *
  * since for any t the left side would be at most the sum of f n.(t_j - t_i), which is at most the right side [Farkas;
- * BV04, section 5.8]. The program's own forces are tried, however inexact its arithmetic was.
+ * BV04, section 5.8]. The program's own forces are tried, however inexact its arithmetic was. If one of the claims is
+ * strict, equality is a proof, too; this is only used for two claims with opposite directions, whose sum has no rounding
+ * error.
  *
  * Limits enter the program as tangents, added where a solution exceeds a limit. The program finds the solution nearest
  * to the last candidate (quadratic/nearest.c), which satisfied all except the last claim, and so is few steps away. It
  * demands slightly more than the claims (a hair). If it has a solution, but not with that hair, it is solved without
  * it, and then with half a hair less, since between two walls in one line there is room for rounding only. */
 #include "displacement/prove/proofs/branching.h"
+#include "displacement/prove/proofs/exact_line.h"
 #include "displacement/prove/proofs/tuning.h"
 
 #include "base/extremes.h"
@@ -68,17 +71,24 @@ bool sunder_i_branching_is_contradiction(sunder_i_branching *branching)
     return isfinite(all) && won - share * all - 0x1p-1000 > lost * (1 + share);
 }
 
+/* Returns the length of a claim's normal. */
+static double length_of(const sunder_i_branching *c, const sunder_i_claim *s)
+{
+    return c->subproblem->exact ? hypot(s->n[0], s->n[1]) : 1;
+}
+
 /* Sets the forces of two claims of one pair so that they balance at the shortest relative move that satisfies both.
  * Returns false if one claim alone determines that move. */
-static bool balance_claims(sunder_i_claim *p, sunder_i_claim *q)
+static bool balance_claims(const sunder_i_branching *c, sunder_i_claim *p, sunder_i_claim *q)
 {
-    const double sign = p->i == q->i ? 1 : -1, cosine = sign * (p->n[0] * q->n[0] + p->n[1] * q->n[1]);
+    const double of_p = length_of(c, p), of_q = length_of(c, q), dp = p->d / of_p, dq = q->d / of_q;
+    const double sign = p->i == q->i ? 1 : -1, cosine = sign * (p->n[0] * q->n[0] + p->n[1] * q->n[1]) / (of_p * of_q);
     const double square = sunder_i_max(1 - cosine * cosine, 0x1p-100);
-    p->force = p->d - cosine * q->d;
-    q->force = q->d - cosine * p->d;
+    p->force = dp - cosine * dq;
+    q->force = dq - cosine * dp;
     if (!(p->force > 0) || !(q->force > 0)) return false;
-    p->force /= square;
-    q->force /= square;
+    p->force /= square * of_p;
+    q->force /= square * of_q;
     return true;
 }
 
@@ -92,7 +102,7 @@ bool sunder_i_branching_is_dead_end(sunder_i_branching *branching)
     for (size_t k = 0; k + 1 < branching->claims; k++) {
         sunder_i_claim *other = &branching->claim[k];
         if (!(other->i == last->i && other->j == last->j) && !(other->i == last->j && other->j == last->i)) continue;
-        if (balance_claims(last, other) && sunder_i_branching_is_contradiction(branching)) return true;
+        if (balance_claims(branching, last, other) && sunder_i_branching_is_contradiction(branching)) return true;
         other->force = 0;
     }
     return false;
@@ -115,10 +125,68 @@ bool sunder_i_branching_contradict(sunder_i_branching *branching, const uint32_t
     bool is_set = n == 1;
     for (size_t k = 0; k < branching->claims; k++) branching->claim[k].force = 0;
     if (n == 1) branching->claim[claim[0]].force = 1;
-    if (n == 2) is_set = balance_claims(&branching->claim[claim[0]], &branching->claim[claim[1]]);
+    if (n == 2) is_set = balance_claims(branching, &branching->claim[claim[0]], &branching->claim[claim[1]]);
     if (n == 3)
         is_set = balance_three(&branching->claim[claim[0]], &branching->claim[claim[1]], &branching->claim[claim[2]]);
     return is_set && sunder_i_branching_is_contradiction(branching);
+}
+
+/* Adds force * d to *won. Returns false if doubles do not hold the product or the sum. */
+static bool win_exactly(const sunder_i_claim *s, double *won)
+{
+    double of_s;
+    return sunder_i_multiply_exactly(s->force, s->d, &of_s) && sunder_i_subtract_exactly(of_s, -*won, won);
+}
+
+/* Sets the forces of two claims with opposite directions so that their sum is zero, exactly. Returns false if the
+ * directions are not opposite. */
+static bool balance_opposite(sunder_i_claim *p, sunder_i_claim *q)
+{
+    const int x = fabs(p->n[0]) > fabs(p->n[1]) ? 0 : 1;
+    p->force = fabs(q->n[x]);
+    q->force = fabs(p->n[x]);
+    return sunder_i_are_equal_products(p->n[0], q->n[1], p->n[1], q->n[0]) && p->n[x] * q->n[x] < 0;
+}
+
+/* The same for three claims, where doubles hold the forces. */
+static bool balance_three_exactly(sunder_i_claim *p, sunder_i_claim *q, sunder_i_claim *r)
+{
+    sunder_i_claim *s[3] = {p, q, r};
+    int positive = 0;
+    for (int k = 0; k < 3; k++) {
+        const double *m = s[(k + 1) % 3]->n, turned[2] = {s[(k + 2) % 3]->n[1], -s[(k + 2) % 3]->n[0]};
+        if (!sunder_i_dot_exactly(turned, m, &s[k]->force) || s[k]->force == 0) return false;
+        positive += s[k]->force > 0;
+    }
+    for (int k = 0; k < 3; k++) s[k]->force = fabs(s[k]->force);
+    return positive == 0 || positive == 3;
+}
+
+/* Do the forces of these claims, whose sum is zero, prove that they contradict each other? */
+static bool win(const sunder_i_claim *p, const sunder_i_claim *q, const sunder_i_claim *r)
+{
+    double won = 0;
+    return win_exactly(p, &won) && win_exactly(q, &won) && (!r || win_exactly(r, &won)) &&
+           (won > 0 || (won == 0 && (p->strict || q->strict || (r && r->strict))));
+}
+
+bool sunder_i_branching_is_shut(sunder_i_branching *branching, uint32_t p, bool three)
+{
+    sunder_i_claim *last = &branching->claim[p];
+    for (size_t k = 0; k < branching->claims; k++) branching->claim[k].force = 0;
+    for (size_t k = 0; k < branching->claims; k++) {
+        sunder_i_claim *s = &branching->claim[k];
+        if (k == p || s->i != last->i || s->j != last->j) continue;
+        if (balance_opposite(last, s) && win(last, s, NULL)) return true;
+        for (size_t m = 0; m < k && three; m++) {
+            sunder_i_claim *r = &branching->claim[m];
+            if (m == p || r->i != last->i || r->j != last->j) continue;
+            if (balance_three_exactly(last, s, r) && win(last, s, r)) return true;
+            r->force = 0;
+        }
+        last->force = s->force = 0;
+    }
+    return false;
 }
 
 /* ---- The program ------------------------------------------------------------------------------------------------- */

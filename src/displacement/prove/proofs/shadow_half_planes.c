@@ -15,6 +15,7 @@
  * slack (|C| + |L|). So C is at most 8 slack (1 + |C| / |L|) beside the line of L, which is less than the tilt times
  * |C| if the tilt is 2^6 slack / m, where m is the least distance of a corner. If m is below 2^16 slack, there is no
  * answer. */
+#include "displacement/prove/proofs/exact_line.h"
 #include "displacement/prove/proofs/half_planes.h"
 
 #include "base/extremes.h"
@@ -28,11 +29,17 @@
 static double dot_product(const double p[2], const double q[2]) { return p[0] * q[0] + p[1] * q[1]; }
 
 /* Sets out to corner k of A + (-B), where A or B has only one corner. The corners are counter-clockwise in both
- * cases. */
-static void corner_of_sum(const sunder_i_parting *p, size_t k, double out[2])
+ * cases. Returns whether it has no error. */
+static bool corner_of_sum(const sunder_i_parting *p, size_t k, double out[2])
 {
     const double *a = p->a + 2 * (p->na > 1 ? k : 0), *b = p->b + 2 * (p->nb > 1 ? k : 0);
-    for (int c = 0; c < 2; c++) out[c] = a[c] - b[c] - p->offset[c];
+    bool exact = p->exact;
+    for (int c = 0; c < 2; c++) {
+        double d;
+        exact = sunder_i_subtract_exactly(a[c], b[c], &d) && exact;
+        exact = sunder_i_subtract_exactly(d, p->offset[c], &out[c]) && exact;
+    }
+    return exact;
 }
 
 static double size_of(const sunder_i_parting *p)
@@ -63,6 +70,20 @@ static size_t tangent_corner(const sunder_i_parting *p, size_t n, double sign)
     return best;
 }
 
+/* Sets *out to the half-plane beyond the ray through corner l, on the ray's line, without tilt. Returns false unless all
+ * corners are seen, exactly, not to be beyond that line. */
+static bool is_exactly_beside(const sunder_i_parting *p, size_t n, const double l[2], double sign,
+                              sunder_i_half_plane *out)
+{
+    const double along[2] = {-sign * l[0], -sign * l[1]};
+    double u[2], by;
+    *out = (sunder_i_half_plane){.d = 0};
+    bool exact = sunder_i_exact_normal(along, out->n);
+    for (size_t k = 0; k < n && exact; k++)
+        exact = corner_of_sum(p, k, u) && sunder_i_dot_exactly(out->n, u, &by) && by <= 0;
+    return exact;
+}
+
 /* Returns the half-plane beyond the ray through corner l: to its left with sign +1, else to its right. */
 static sunder_i_half_plane beside_ray(const double l[2], double sign, double tilt)
 {
@@ -85,19 +106,22 @@ size_t sunder_i_half_planes_past(const sunder_i_parting *parting, sunder_i_half_
     }
     if (!(least >= FAR_ENOUGH * slack)) return 0;
     const double tilt = TILT * slack / least;
-    corner_of_sum(parting, tangent_corner(parting, n, -1), u);
-    out[half_planes++] = beside_ray(u, 1, tilt);
-    corner_of_sum(parting, tangent_corner(parting, n, 1), u);
-    out[half_planes++] = beside_ray(u, -1, tilt);
+    for (int sign = 1; sign >= -1; sign -= 2, half_planes++) {
+        corner_of_sum(parting, tangent_corner(parting, n, -sign), u);
+        if (!parting->exact || !is_exactly_beside(parting, n, u, sign, &out[half_planes]))
+            out[half_planes] = beside_ray(u, sign, tilt);
+    }
     for (size_t k = 0; k < n; k++) {
-        corner_of_sum(parting, k, u);
-        corner_of_sum(parting, k + 1 < n ? k + 1 : 0, v);
+        const bool from = corner_of_sum(parting, k, u), to = corner_of_sum(parting, k + 1 < n ? k + 1 : 0, v);
         const double e[2] = {v[0] - u[0], v[1] - u[1]}, length = sqrt(dot_product(e, e));
         const double m[2] = {e[1] / length, -e[0] / length};
         if (!(length > 0)) continue;
         const double d = sunder_i_min(dot_product(m, u), dot_product(m, v)) - slack;
         /* m is the outer normal: the origin sees the side if it lies beyond it, at d < 0, up to rounding. */
-        if (d < slack) out[half_planes++] = (sunder_i_half_plane){.n = {m[0], m[1]}, .d = d};
+        if (!(d < slack)) continue;
+        if (!from || !to || !sunder_i_exact_line(u, v, 0, &out[half_planes]))
+            out[half_planes] = (sunder_i_half_plane){.n = {m[0], m[1]}, .d = d};
+        half_planes++;
     }
     for (size_t k = 0; k < half_planes; k++)
         if (!(dot_product(out[k].n, middle) < out[k].d - 8 * slack)) return 0;

@@ -108,5 +108,8 @@
  * inside another, and at most MOST_SLIVERS seams are widened. */
 #define SLIVER 0x1p-24
 #define MOST_SLIVERS 4
+/* With exact lines a shadow counts as larger by the share SHADOW_BORDER of the limits, so that its border covers a seam
+ * that is widened to either side. */
+#define SHADOW_BORDER (2 * SLIVER)
 
 #endif
