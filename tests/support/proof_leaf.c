@@ -113,7 +113,7 @@ static void sum_lost(const checking *c, const sunder_proof_node *leaf, size_t st
     vec_clear(&net);
 }
 
-/* Does m.u > h follow from the force, not only m.u >= h? The sides of barriers are closed: what is not in their shadow is
+/* Does m.u > h follow from the force, not only m.u >= h? Sides of barriers are closed: what is not in their shadow is
  * strictly beyond a line. What is behind a line of anything else is not on it. */
 static bool is_strict(const checking *c, const sunder_proof_force *force)
 {

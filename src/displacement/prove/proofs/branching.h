@@ -192,8 +192,8 @@ bool sunder_i_branching_is_contradiction(sunder_i_branching *branching);
 
 /* Do these n claims of one pair, at most three, contradict the limits? If so, the forces prove it. */
 bool sunder_i_branching_contradict(sunder_i_branching *branching, const uint32_t *claim, size_t n);
-/* Does claim p contradict a claim of the same pair with the opposite direction or, with `three`, two others of that pair,
- * exactly? If so, the forces prove it. */
+/* Does claim p contradict, exactly, a claim of its pair with the opposite direction or, with `three`, two others of that
+ * pair? If so, the forces prove it. */
 bool sunder_i_branching_is_shut(sunder_i_branching *branching, uint32_t p, bool three);
 
 /* ---- violations.c ------------------------------------------------------------------------------------------------ */
@@ -302,8 +302,8 @@ typedef struct sunder_i_plane_answer {
 /* Decides a subproblem with one movable body among fixed things, or about the relative move of its two movable
  * bodies. */
 sunder_status sunder_i_branching_plane(sunder_i_branching *branching, sunder_i_plane_answer *answer, sunder_error *err);
-/* Tests only the n relative moves at[] in the same way: answer->free is set if nothing forbids one of them, and it is on
- * the border of nothing closed; the verdict is then feasible if nothing else matters; otherwise it is unknown. */
+/* Tests only the n relative moves at[] in the same way. answer->free is set if one of them is forbidden by nothing, and
+ * on the border of nothing closed; the verdict is then feasible if nothing else matters; otherwise it is unknown. */
 sunder_status sunder_i_branching_plane_try(sunder_i_branching *branching, const double (*at)[2], size_t n,
                                            sunder_i_plane_answer *answer, sunder_error *err);
 /* Sets *p and *q to the bodies whose relative move the subproblem concerns. Returns false if it concerns more. */

@@ -1,8 +1,8 @@
 /* Lines without rounding errors. Two things in exact contact leave a seam between their lines, which is a line or a
  * point. Whether a third thing covers it can only be told from lines that are known exactly (plane.c).
  *
- * A product p q of doubles is a double if fma(p, q, -(p q)) is 0, unless it underflows; so numbers near the least double
- * are refused. */
+ * A product p q of doubles is a double if fma(p, q, -(p q)) is 0, unless it underflows; so tiny products are
+ * refused. */
 #include "displacement/prove/proofs/exact_line.h"
 
 #define LEAST 0x1p-900 /* products of nonzero factors below it might underflow */

@@ -7,8 +7,7 @@
  *
  * since for any t the left side would be at most the sum of f n.(t_j - t_i), which is at most the right side [Farkas;
  * BV04, section 5.8]. The program's own forces are tried, however inexact its arithmetic was. If one of the claims is
- * strict, equality is a proof, too; this is only used for two claims with opposite directions, whose sum has no rounding
- * error.
+ * strict, equality is a proof, too. This is used only for two or three claims whose sums have no rounding error.
  *
  * Limits enter the program as tangents, added where a solution exceeds a limit. The program finds the solution nearest
  * to the last candidate (quadratic/nearest.c), which satisfied all except the last claim, and so is few steps away. It

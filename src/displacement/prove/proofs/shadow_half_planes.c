@@ -70,8 +70,8 @@ static size_t tangent_corner(const sunder_i_parting *p, size_t n, double sign)
     return best;
 }
 
-/* Sets *out to the half-plane beyond the ray through corner l, on the ray's line, without tilt. Returns false unless all
- * corners are seen, exactly, not to be beyond that line. */
+/* Sets *out to the half-plane beyond the line of the ray through corner l, without tilt. Returns false unless, exactly,
+ * no corner is beyond that line. */
 static bool is_exactly_beside(const sunder_i_parting *p, size_t n, const double l[2], double sign,
                               sunder_i_half_plane *out)
 {

@@ -5,7 +5,7 @@
 
 /* SUNDER_I_PROOFS_TUNING_VERSION is the version of the values below. It is raised with each change of a value, so that
  * a record can name the values by their version (tests/house/TUNING). */
-#define SUNDER_I_PROOFS_TUNING_VERSION 3
+#define SUNDER_I_PROOFS_TUNING_VERSION 4
 
 /* ---- A node's program (program.c) -------------------------------------------------------------------------------- */
 

@@ -69,7 +69,12 @@ static void test_lines_of_any_doubles(void **state)
     size_t found = 0;
     for (size_t k = 0; k < test_count(CASES); k++) {
         rng r = rng_start(test_seed(), k);
-        const double p[2] = {rng_unit(&r), rng_unit(&r)}, q[2] = {rng_unit(&r), rng_once_in(&r, 2) ? p[1] : rng_unit(&r)};
+        double p[2], q[2];
+        for (int x = 0; x < 2; x++) {
+            p[x] = rng_unit(&r);
+            q[x] = rng_unit(&r);
+        }
+        if (rng_once_in(&r, 2)) q[1] = p[1];
         sunder_i_half_plane line;
         if (!sunder_i_exact_line(p, q, 0, &line)) continue;
         check_line(p, q, &line);
