@@ -293,9 +293,8 @@ typedef struct sunder_i_plane_answer {
     double u[2];              /* if feasible or free: the move of q less that of p */
     uint32_t p, q;            /* bodies; q may be SUNDER_I_GROUND */
     bool free;                /* a place was found where nothing is forbidden */
-    bool
-        seam; /* two lines left a line or a point, or the free place is on the border of something closed: lines without
-                * a rounding error may tell more */
+    bool seam;                /* two lines left a line or a point, or the free place is on the border of something
+                               * closed: lines without a rounding error may tell more */
     size_t root;
 } sunder_i_plane_answer;
 

@@ -23,7 +23,7 @@ typedef struct sunder_i_parting {
 
 /* A half-plane of relative moves u of B. Moves in any one of the half-planes of a pair separate the two. */
 typedef struct sunder_i_half_plane {
-    double n[2], d;  /* the half-plane is n.u >= d; n has length 1 within 2^-51 */
+    double n[2], d;  /* the half-plane is n.u >= d; n has length 1 within 2^-51, or at most 1 if the line is exact */
     double base, by; /* d is base + by * clearance, for all clearances of one sign, if coarse and at are the same */
     double at;       /* n.u - d at the given relative move */
     size_t next;     /* in a proof: the node for this case */
