@@ -374,12 +374,12 @@ GROUPS = {"square": (1, 16, 0), "flat": (2, 16, 0), "triangle": (3, 16, 0), "dia
 KINDS = ("line", "area", "boundary")
 
 
-# Worlds, as (seed, index of the world), in which an earlier version left a conflict without a proof, or moved the symbol
-# farther than to the nearest free place.
+# Worlds, as (seed, index of the world), in which an earlier version left a conflict without a proof, moved the symbol
+# farther than to the nearest free place, or had its proof refused.
 AGAIN = {"square": [(8, 23), (18, 12), (24, 23), (35, 2), (41, 10), (59, 3)],
          "flat": [(3, 23), (22, 0), (30, 15), (42, 8), (90, 19), (106, 5), (5, 21), (8, 5)],
          "triangle": [(21, 12), (96, 23)],
-         "diamond": [(3, 93), (10, 83), (17, 52), (10, 7), (17, 19), (30, 7), (69, 24), (1, 16), (13, 23), (201, 986)],
+         "diamond": [(3, 93), (9, 82), (10, 83), (17, 52), (10, 7), (17, 19), (30, 7), (69, 24), (1, 16), (13, 23), (201, 986)],
          "small": [(12, 97)],
          "square_gap": [(2, 12), (5, 23), (11, 12), (12, 4)],
          "triangle_gap": [(2, 6), (5, 16), (7, 17), (18, 19)]}

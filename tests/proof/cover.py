@@ -206,11 +206,17 @@ def common_rays(pieces):
     return found
 
 
+def rays_of(pieces):
+    """The lines through the origin and the ends of shadows of segments. Shadows and priced pieces may overlap by so little along
+    them that halving would not find them."""
+    return [(p[1], -p[0], 0) for piece in pieces if len(piece.corners) == 2 and piece.shadow for p in piece.corners]
+
+
 def is_covered(region, pieces, leaving=None):
     """Is all of the region in the union of the pieces? leaving: a function of a piece, the corners of a part, and its middle, which
     proposes a line that cuts the part; otherwise it is halved."""
     todo, steps, last = [region], 0, None
-    for a, b, c in common_rays(pieces):
+    for a, b, c in rays_of(pieces) if leaving else common_rays(pieces):
         todo = [clip(part, line) for part in todo for line in ((a, b, c), (-a, -b, -c))]
     while todo:
         part = todo.pop()
