@@ -194,7 +194,7 @@ SUNDER_EXPERIMENTAL const sunder_bound_tree *sunder_report_bound_trees(const sun
  * of minus the clearance * |sum of force * m|. So no moves within the limits satisfy the case of the leaf. The two may
  * be equal if m.u > h for some force. That holds with `behind`, unless the node has `shadow` and b is a barrier. For
  * such a node it holds without `behind`: a side is closed, so a path that does not meet it has n.u > d for some way.
- * The first of these ways then leads to `next`.
+ * The case of a way is then that it is the first with n.u > d.
  *
  * If `held` is set, the pair is not the conflict itself. It has to keep exactly its distance at the start or, if its
  * interiors met, minus the length of the least translation that separated it then; `clearance` is only near to that

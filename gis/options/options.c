@@ -260,7 +260,8 @@ static bool check_shard(const gis_options *out, gis_error *error)
            gis_fail_usage(error, "sunder separate --shard K takes one operand, PLAN; `sunder plan` makes one");
 }
 
-/* Refuses an option that needs one of several others, of those that the command has. */
+/* Refuses an option that is given without any of the options that give it a meaning. The message names those that the
+ * command has. */
 static bool refuse_alone(const gis_options *out, const gis_option *option, const gis_need *need, gis_error *error)
 {
     char names[256];

@@ -23,8 +23,8 @@ while IFS=$'\t' read -r words command option status said; do
     [[ $said =~ $words ]] || fail "$command $option: not '$words', but '$said'"
 done <asked
 
-# An option that says how others work is refused without them: by itself, but not beside any of those. The list is of all
-# such options; "check" has some of the others only.
+# Options that only change what another option does: each is refused by itself, and accepted beside any option that it
+# needs ("needs" of --options-json, for each command).
 json '.commands[] | .name as $command | .options[] | select(.needs != [])
     | [$command, .name, if .kind == "flag" then .name elif .values then .name + "=" + .values[0] else .name + "=1" end] + .needs | @tsv' \
     options.json | grep -v '^plan' >alone

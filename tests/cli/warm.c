@@ -2,10 +2,10 @@
  *
  * The dynamic loader takes 0.1 to 0.2 s of processor time for libgdal and its hundred libraries, longer than most
  * calls of the tests take for their question, and the tests of the command make thousands of calls. This client stands
- * in for sunder, ogr2ogr and ogrinfo (links of these names lead to it). It asks a process that has loaded the program,
- * but not called its main(), for a fork that does so (warm_server.c), hands over its arguments, environment, folder,
- * open files, umask and signals, and ends as that process ends. The first call starts that process; it ends with the
- * test, whose process is named by SUNDER_WARM_OWNER.
+ * in for sunder, ogr2ogr and ogrinfo: symbolic links with these names lead to it. It asks a process that has loaded the
+ * program, but not called its main(), for a fork that does so (warm_server.c), hands over its arguments, environment,
+ * folder, open files, umask and signals, and ends as that process ends. The first call starts that process; it ends
+ * with the test, whose process is named by SUNDER_WARM_OWNER.
  *
  * What a fork would not share with a process of its own starts the program itself: variables that the loader or the
  * allocator read when they start, another limit, priority or set of processors than the test has, many open files. */

@@ -83,7 +83,7 @@ class Rungs:
                 self.demand_wall_kept(fid, shape, other, self.problem.smaller[other][self.of[other].index(rung)], hair)
 
     def demand_wall_kept(self, fid, shape, other, others, hair):
-        """Fails if a corner at which the shape leaves a wall that it shares with the other one is no corner of that one."""
+        """Two shapes share a wall. Fails if this shape leaves the wall at a corner that the other shape does not have."""
         outline, its = shape.whole(), others.whole()
         if not plane.boxes_near(outline.box, its.box, hair):
             return
