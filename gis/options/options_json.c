@@ -7,7 +7,7 @@
  *   metavar         the word that stands for a value in --help, or null
  *   repeatable      may the option be repeated, with one more value each time?
  *   needed          is the option mandatory?
- *   needs           at least one of these options has to be given, too; []: the option has a meaning by itself
+ *   needs           the option is refused unless one of the options in this list is given; []: it is not
  *   default         text that has the effect of leaving the option out; null: there is none
  *   default_text    the same in the words of --help
  *   group           command, identity, features, room, output, trouble, running; hidden: not listed in --help

@@ -8,7 +8,7 @@ makes a kind of statement which the other runs do not make. In each file every n
 little and by much, to zero, negative, subnormal, huge, infinite, not a number. Every line, member and element is
 removed, doubled, swapped with the next, emptied, or replaced by one of another type. Indices become -1 and the count.
 N of all of these are drawn by the seed, or all are tried. The file is checked against another layer, and with other
-options; lines of another run on the same layer are put into it: N of these cases are drawn, or all are tried. What is accepted is judged: this script judges the
+options; lines of another run on the same layer are put into it. N such cases are drawn, or all are tried. What is accepted is judged: this script judges the
 claimed conflicts, the blocks and the sum of the bounds, judge.py judges each line. With --need-all the forged lines
 together have to use every member of the format and to make every kind of statement that statements.py lists.
 """

@@ -1,8 +1,8 @@
 # shellcheck shell=bash disable=SC1091
 # A forged file of --proof is refused, or all its claims are still true (forgeries.py). Runs on layers of at most ten
-# features use together every kind of line and member, and make every kind of statement (statements.py). 700 forgeries
-# of these and 700 other layers and options are drawn by seed (SUNDER_SEED), each kind at least once; with SUNDER_LAWS=all
-# all of them are tried, in about 20 minutes. 300 are of three maps, if these are beside the repository.
+# features use together every kind of line and member, and make every kind of statement (statements.py). The seed
+# (SUNDER_SEED) draws 700 forgeries, and 700 times another layer or other options, each kind at least once. With
+# SUNDER_LAWS=all everything is tried, in about 20 minutes. 300 are of three maps, if these are beside the repository.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 command -v python3 >/dev/null || { echo "skipped: no python3"; exit 77; }
 . "$SUNDER_SOURCE/tests/proof/forged_runs.sh"

@@ -18,7 +18,7 @@ proved() {
     grep -o 'hidden [^;]*' said
 }
 
-# untrue KINDS OPTIONS...: of the proof of the last run no false statement is accepted, of these kinds among others
+# untrue KINDS OPTIONS...: changes the last run's proof; the checker refuses each change, and the KINDS are among them
 untrue() {
     local kind kinds=$1
     shift

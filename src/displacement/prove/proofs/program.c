@@ -161,7 +161,7 @@ static bool balance_three_exactly(sunder_i_claim *p, sunder_i_claim *q, sunder_i
     return positive == 0 || positive == 3;
 }
 
-/* Do the forces of these two or three claims, which add up to zero, prove that the claims contradict each other? */
+/* The vectors force * n of these two or three claims add up to zero. Do the claims contradict each other, exactly? */
 static bool win(const sunder_i_claim *p, const sunder_i_claim *q, const sunder_i_claim *r)
 {
     double won = 0;

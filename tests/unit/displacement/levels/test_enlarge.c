@@ -13,7 +13,7 @@
 
 enum { MOST = 3 };
 
-/* Calls sunder_layer_enlarge() for a layer of these n features; the gap is 3, so the touch tolerance is 0.3. */
+/* Calls sunder_layer_enlarge() for a layer of n features. The gap is 3, and the touch tolerance 0.3. */
 static sunder_status enlarge(sunder_shape *const *feature, const int64_t *block, size_t n, const sunder_enlarging *how,
                              sunder_shape **out, int64_t *number)
 {
