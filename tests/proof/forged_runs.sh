@@ -83,7 +83,7 @@ forge_generated() {
     forged front front.gpkg --gap 4 --max-shift 4.5 --rows auto --ease 30 --barrier drawn.gpkg,width=6
     forged between row.gpkg --gap 3 --least-gap 1 --max-shift 2 --ease 30 --rows auto --fixed-where 'w = 3' --weight-field w
     forged squeezed squeezed.gpkg --gap 5 --max-shift 20 --fixed-where 'w = 3' --rows auto
-    only='"within"' forged shut shut.gpkg --barrier shut_in.gpkg
+    only='"within"' forged shut shut.gpkg --barrier shut_in.gpkg,as=boundary --barrier shut_by.gpkg --barrier shut_off.gpkg,side=no
     forged hidden hidden.gpkg --gap 0.5 --max-shift 3 --no-blocks --block-field k --contained separate --barrier walls.gpkg --hide --crossed hide --hide-weight area \
         --hierarchy-field class
     make_town

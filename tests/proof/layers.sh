@@ -290,11 +290,13 @@ make_arcs() {
     ogr2ogr chords.gpkg bow_street.gpkg -nlt CONVERT_TO_LINEAR 2>/dev/null || fail "ogr2ogr: bow_street.gpkg"
 }
 
-# A house without a limit, in a room between three lines that is too small for it.
+# A house without a limit, in an area that it does not leave, and between lines and another area, which leave it no room.
+# The conflict with one of them has a solution that makes the others no worse.
 make_shut() {
-    make_rings shut.gpkg '-1 -1,1 -1,1 1,-1 1'
-    printf 'WKT,w\n"LINESTRING(%s)",1\n"LINESTRING(%s)",1\n"LINESTRING(%s)",1\n' '-6 -1,6 -1' '1 -1,-3 7' '-1 -5,4 10,-2 -2' |
-        layer shut_in.gpkg shut_in LINESTRING
+    make_rings shut.gpkg '0 -3,3 0,0 3,-3 0'
+    printf 'WKT,w\n"POLYGON((2 -13,2 13,9 13,9 20,-9 20,-9 13,-2 13,-2 -13))",1\n' | layer shut_in.gpkg shut_in POLYGON
+    printf 'WKT,w\n"LINESTRING(1 -6,1 4,-3 1,-4 -5)",1\n"LINESTRING(11 7,-11 -4)",1\n' | layer shut_by.gpkg shut_by LINESTRING
+    printf 'WKT,w\n"POLYGON((1 0,-10 3,-5 -14,4 -14))",1\n' | layer shut_off.gpkg shut_off POLYGON
 }
 
 # Three houses of a row beside a drawn road; the one in the middle stands on it, and lacks half a metre of what the limit allows.

@@ -192,9 +192,9 @@ bool sunder_i_branching_is_contradiction(sunder_i_branching *branching);
 
 /* Do these n claims of one pair, at most three, contradict the limits? If so, the forces prove it. */
 bool sunder_i_branching_contradict(sunder_i_branching *branching, const uint32_t *claim, size_t n);
-/* Does claim p contradict, exactly, a claim of its pair with the opposite direction or, with `three`, two others of its
- * pair? If so, the forces prove it. */
-bool sunder_i_branching_is_shut(sunder_i_branching *branching, uint32_t p, bool three);
+/* Does claim p contradict, exactly, a claim of its pair with the opposite direction, or two others of its pair? If so,
+ * the forces prove it. */
+bool sunder_i_branching_is_shut(sunder_i_branching *branching, uint32_t p);
 
 /* ---- violations.c ------------------------------------------------------------------------------------------------ */
 

@@ -20,10 +20,10 @@
 
 /* ---- Division ---------------------------------------------------------------------------------------------------- */
 
-/* Does the claim leave nothing, or only a line that something closed covers, together with its opposite? */
+/* Do the claim and one or two others leave nothing, or only a line or a point that something closed covers? */
 static bool is_shut(sunder_i_plane *g, uint32_t claim)
 {
-    return g->c->subproblem->exact && sunder_i_branching_is_shut(g->c, claim, g->thin > 0);
+    return g->c->subproblem->exact && sunder_i_branching_is_shut(g->c, claim);
 }
 
 /* Is it proved that the claim and the claims of two sides, or some of them, contradict the limits? */

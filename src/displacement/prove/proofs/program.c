@@ -169,7 +169,7 @@ static bool win(const sunder_i_claim *p, const sunder_i_claim *q, const sunder_i
            (won > 0 || (won == 0 && (p->strict || q->strict || (r && r->strict))));
 }
 
-bool sunder_i_branching_is_shut(sunder_i_branching *branching, uint32_t p, bool three)
+bool sunder_i_branching_is_shut(sunder_i_branching *branching, uint32_t p)
 {
     sunder_i_claim *last = &branching->claim[p];
     for (size_t k = 0; k < branching->claims; k++) branching->claim[k].force = 0;
@@ -177,7 +177,7 @@ bool sunder_i_branching_is_shut(sunder_i_branching *branching, uint32_t p, bool 
         sunder_i_claim *s = &branching->claim[k];
         if (k == p || s->i != last->i || s->j != last->j) continue;
         if (balance_opposite(last, s) && win(last, s, NULL)) return true;
-        for (size_t m = 0; m < k && three; m++) {
+        for (size_t m = 0; m < k; m++) {
             sunder_i_claim *r = &branching->claim[m];
             if (m == p || r->i != last->i || r->j != last->j) continue;
             if (balance_three_exactly(last, s, r) && win(last, s, r)) return true;
