@@ -8,7 +8,7 @@
 #   layer FILE NAME TYPE [CRS]  makes a layer from CSV on stdin whose column WKT is the geometry (CRS EPSG:25832; "none")
 set -u
 command -v ogr2ogr >/dev/null && command -v ogrinfo >/dev/null || { echo "skipped: gdal-bin is not installed"; exit 77; }
-# In the tests that CMakeLists.txt lists as warm, calls are forks of a process that has loaded GDAL already (warm.c).
+# In most tests (CMakeLists.txt lists the others as cold) calls are forks of a process that has loaded GDAL already (warm.c).
 if [ "${SUNDER_WARM:-}" = yes ] && [ -x "$SUNDER_BUILD/tests/warm/sunder" ] && [ "$SUNDER" = "$SUNDER_BUILD/sunder" ]; then
     export SUNDER_WARM_OWNER=$$
     SUNDER=$SUNDER_BUILD/tests/warm/sunder PATH=$SUNDER_BUILD/tests/warm:$PATH

@@ -31,10 +31,10 @@ for name in room far near; do
     ogr2ogr -q $name.gpkg $name.csv -nln $name -a_srs EPSG:25832 -oo GEOM_POSSIBLE_NAMES=WKT -oo KEEP_GEOM_COLUMNS=NO || fail "ogr2ogr $name"
 done
 for name in far near; do
-    expect 3 separate $name.gpkg $name.out.gpkg -q --output-layer l --symbol disc:10 --barrier room.gpkg,as=boundary --proof $name.jsonl
+    expect 3 separate $name.gpkg $name.out.gpkg -q --output-layer l --symbol disc:10 --ease no --barrier room.gpkg,as=boundary --proof $name.jsonl
     ogr2ogr -q -f CSV $name.out.csv $name.out.gpkg l -lco GEOMETRY=AS_WKT
     ogr2ogr -q -f CSV $name.why.csv $name.out.gpkg l_conflicts
-    python3 "$SUNDER_SOURCE/tests/proof/check_proof.py" $name.jsonl $name.gpkg --symbol disc:10 --barrier room.gpkg,as=boundary \
+    python3 "$SUNDER_SOURCE/tests/proof/check_proof.py" $name.jsonl $name.gpkg --symbol disc:10 --ease no --barrier room.gpkg,as=boundary \
         >$name.checked 2>&1 || fail "the proofs of $name: $(tail -n 1 $name.checked)"
 done
 python3 - <<'PY' || fail "places"
