@@ -20,8 +20,8 @@ for symbol in *.symbol; do
             options+=(--barrier "${name}_${kind}_$side.gpkg,side=$side,as=$as")
         done
     done
-    expect 3 separate "$name.gpkg" "$name.out.gpkg" --quiet --effort 0.2 "${options[@]}" --proof "$name.jsonl" --layers main,displacement,conflicts
-    python3 "$SUNDER_SOURCE/tests/proof/check_proof.py" "$name.jsonl" "$name.gpkg" --result "$name.out.gpkg" "${options[@]}" \
+    expect 3 separate "$name.gpkg" "$name.out.gpkg" --quiet --effort 0.2 --ease no "${options[@]}" --proof "$name.jsonl" --layers main,displacement,conflicts
+    python3 "$SUNDER_SOURCE/tests/proof/check_proof.py" "$name.jsonl" "$name.gpkg" --result "$name.out.gpkg" --ease no "${options[@]}" \
         >checked 2>&1 || fail "the proofs of $name: $(tail -n 1 checked)"
 done
 python3 "$SUNDER_SOURCE/tests/cli/alone_in_rooms.py" check || fail "places"

@@ -25,6 +25,10 @@ unset PKG_CONFIG_PATH LD_LIBRARY_PATH SUNDER
 # For pages of the guide the programs are on the PATH, as the guide's README says; the README and the tutorial set the
 # PATH themselves.
 found=$build:$source/gis/cluster:$PATH bare=$work/bin:$PATH
+if [ "${SUNDER_WARM:-}" = yes ] && [ -x "$build/tests/warm/sunder" ]; then # tests/cli/warm.c
+    export SUNDER_WARM_OWNER=$$
+    found=$build/tests/warm:$found
+fi
 
 # What a page needs besides the programs: the installed library, a database server, a clone. Returns 1 and prints the
 # reason if it is missing. `library` takes the page's home directory.
