@@ -17,6 +17,7 @@ typedef struct gis_view_feature {
     uint32_t vertices; /* 0: nothing to draw */
     uint8_t status;    /* a sunder_feature_status */
     bool involved;     /* it is in a remaining conflict, or blocks the solution of one */
+    bool changed;      /* it became larger or smaller */
 } gis_view_feature;
 
 typedef struct gis_view_barrier {

@@ -40,7 +40,9 @@ static bool fill_features(void *of, gis_view_feature *feature, gis_error *error)
         sunder_report_move(held->of, i, &each->move[0], &each->move[1]);
         each->status = (uint8_t)sunder_report_status(held->of, i);
         each->vertices = shape ? (uint32_t)sunder_shape_vertices(shape) : 0;
-        if (each->vertices) sunder_shape_box(shape, each->box);
+        if (!each->vertices) continue;
+        sunder_shape_box(shape, each->box);
+        each->changed = gis_levels_shape_now(held->input, held->of, i) != gis_layer_original(held->input, i);
     }
     return true;
 }

@@ -13,6 +13,8 @@
  *   anchor         x, y of each feature whose move is not 0, as the difference from the previous one
  *   shape          the rings of each feature: the number of vertices, then each vertex as the difference from the
  *                  previous one, also across features; 0 ends a feature
+ *   after          of each feature the rings of its shape in the result, in the same form, if that is another one;
+ *                  empty if it is none's
  *   barrier        of each barrier its width, its lines in the form of shape, and its rings in the same form
  *   conflict       of each listed conflict: 1 if it is proved, else 0; then the two ends of its link, each as the
  *                  difference from the previous point */
@@ -125,13 +127,12 @@ static bool add_anchor(data_writer *writer, size_t i, gis_error *error)
     return true;
 }
 
-/* Adds the rings of a feature as they are drawn, without rings that the simplification removes. */
-static bool add_shape(data_writer *writer, size_t i, gis_error *error)
+/* Adds the rings of a shape of feature i as they are drawn, without rings that the simplification removes. */
+static bool add_rings(data_writer *writer, size_t i, const sunder_shape *shape, gis_error *error)
 {
-    const sunder_shape *shape;
     double tolerance = writer->thinning->drawn[i] == GIS_DRAWN_SIMPLER ? writer->thinning->tolerance : 0;
     gis_corners scratch = {0};
-    bool ok = gis_page_shape(writer->model, i, &shape, error);
+    bool ok = true;
     for (size_t p = 0; ok && p < sunder_shape_polygons(shape); p++)
         for (size_t r = 0; ok && r < sunder_shape_rings(shape, p); r++) {
             size_t n;
@@ -146,8 +147,28 @@ static bool add_shape(data_writer *writer, size_t i, gis_error *error)
             for (size_t k = 0; k < n; k++) add_corner(writer, ring[2 * k], ring[2 * k + 1]);
         }
     gis_corners_clear(&scratch);
-    add_integer(writer->to, 0); /* marks the end of the feature; no ring has 0 vertices */
     return ok;
+}
+
+/* The end of a feature; no ring has 0 vertices. */
+static void end_feature(data_writer *writer) { add_integer(writer->to, 0); }
+
+static bool add_shape(data_writer *writer, size_t i, gis_error *error)
+{
+    const sunder_shape *shape;
+    if (!gis_page_shape_at(writer->model, i, false, &shape, error) || !add_rings(writer, i, shape, error)) return false;
+    end_feature(writer);
+    return true;
+}
+
+static bool add_shape_after(data_writer *writer, size_t i, gis_error *error)
+{
+    const sunder_shape *shape;
+    if (writer->model->feature[i].changed &&
+        (!gis_page_shape_at(writer->model, i, true, &shape, error) || !add_rings(writer, i, shape, error)))
+        return false;
+    if (writer->model->changed) end_feature(writer);
+    return true;
 }
 
 static bool add_labels(data_writer *writer, gis_error *error)
@@ -253,7 +274,8 @@ bool gis_map_data_write(const gis_page_model *model, const gis_thinning *thinnin
     gis_json_clear(&head);
     ok = ok && add_labels(&writer, error) && add_column(&writer, "status", add_status, error) &&
          add_column(&writer, "move", add_move, error) && add_column(&writer, "anchor", add_anchor, error) &&
-         add_column(&writer, "shape", add_shape, error) && add_barriers(&writer, error);
+         add_column(&writer, "shape", add_shape, error) && add_column(&writer, "after", add_shape_after, error) &&
+         add_barriers(&writer, error);
     if (ok) add_conflicts(&writer);
     gis_text_add(to, "}\n");
     return ok;

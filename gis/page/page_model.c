@@ -34,6 +34,7 @@ static bool take_features(gis_page_model *model, gis_error *error)
         gis_page_box(&model->feature[i], 1, after);
         gis_box_join(model->extent, model->feature[i].box);
         gis_box_join(model->extent, after);
+        model->changed = model->changed || model->feature[i].changed;
     }
     model->empty = gis_box_is_empty(model->extent);
     if (model->empty) memset(model->extent, 0, sizeof model->extent);

@@ -26,6 +26,7 @@ typedef struct gis_page_model {
     double extent[4];          /* the bounding box of all features before and after their moves; all zero if there is
                                 * none */
     bool empty;                /* there is nothing to draw */
+    bool changed;              /* a feature became larger or smaller */
     gis_view_barrier *barrier; /* the barriers near the features; areas first, then sorted by width */
     size_t n_barriers;
     const sunder_conflict **conflict; /* the conflicts between blocks, the worst first */

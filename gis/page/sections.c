@@ -104,7 +104,10 @@ bool gis_page_figures(const gis_page_model *model, const gis_thinning *thinning,
 
 bool gis_page_legend(const gis_page_model *model, const gis_thinning *thinning, gis_text *to, gis_error *error)
 {
+    size_t i = 0;
     (void)thinning, (void)error;
+    while (i < model->n && model->feature[i].status != SUNDER_FEATURE_HIDDEN) i++;
+    if (i < model->n) gis_text_add(to, "<li><i class=\"hidden\"></i>hidden</li>\n");
     if (model->n_barriers > 0) gis_text_add(to, "<li><i class=\"barrier\"></i>barrier</li>\n");
     return true;
 }

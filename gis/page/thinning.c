@@ -1,10 +1,10 @@
 /* thinning.c: see thinning.h.
  *
- * The page must load quickly, hence the size of its map is limited. Features are drawn completely in the order of their
- * importance, until the limit is reached: those that are in a conflict or block one, those that moved, the longest
- * moves first, those near any of these, and the rest. All other features are simplified with a tolerance, and those not
- * larger than it are omitted; the tolerance is doubled until the map is small enough. The choice depends on the layer
- * only. */
+ * The page must load quickly, hence the size of its map is limited. Features are drawn completely in the order of
+ * their importance, until the limit is reached: those that are in a conflict or block one, those that moved, the
+ * longest moves first, those near any of these or near others that changed or are hidden, and the rest. All other
+ * features are simplified with a tolerance, and those not larger than it are omitted; the tolerance is doubled until
+ * the map is small enough. The choice depends on the layer only. */
 #include "page/thinning.h"
 
 #include "base/interrupt.h"
@@ -50,10 +50,11 @@ static bool meets_marked(const gis_page_model *model, const double box[4], const
 
 static bool is_telling(const gis_view_feature *feature)
 {
-    return feature->involved || feature->move[0] != 0 || feature->move[1] != 0;
+    return feature->involved || feature->changed || feature->status == SUNDER_FEATURE_HIDDEN || feature->move[0] != 0 ||
+           feature->move[1] != 0;
 }
 
-/* Marks the cells of all features that moved, are in a conflict, or block one. */
+/* Marks the cells of all features that moved, changed, are hidden, are in a conflict, or block one. */
 static void mark_telling(const gis_page_model *model, bool *marked)
 {
     for (size_t i = 0; i < model->n; i++) {
@@ -76,7 +77,13 @@ typedef struct room {
     bool full; /* a feature exceeded the limit, so that no less important one is drawn completely */
 } room;
 
-static double whole_bytes(const gis_view_feature *feature) { return FEATURE_BYTES + CORNER_BYTES * feature->vertices; }
+/* A feature that changed is drawn in two shapes. */
+static size_t shapes_of(const gis_view_feature *feature) { return feature->changed ? 2 : 1; }
+
+static double whole_bytes(const gis_view_feature *feature)
+{
+    return FEATURE_BYTES + CORNER_BYTES * (double)(shapes_of(feature) * feature->vertices);
+}
 
 static void draw_whole(room *map, size_t i)
 {
@@ -126,7 +133,7 @@ static bool simpler_bytes(const gis_page_model *model, size_t i, double toleranc
             size_t n;
             const double *ring = sunder_shape_ring(shape, p, r, &n);
             if (!gis_corners_simplify(scratch, ring, n, tolerance, error)) return false;
-            *bytes += CORNER_BYTES * (double)scratch->n;
+            *bytes += CORNER_BYTES * (double)(shapes_of(&model->feature[i]) * scratch->n);
         }
     if (*bytes > 0) *bytes += FEATURE_BYTES;
     return true;

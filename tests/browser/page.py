@@ -104,6 +104,25 @@ def ask_under(browser):
     quiet(page, "under.html")
 
 
+# ---- Smaller, and hidden: the left house, from 0 to 10, is moved in by 1; the right one, from 10 to 20, is hidden ----------
+def ask_smaller(browser):
+    page = browser.open(address("smaller.html"), 1200, 900)
+    box, at = map_box(page), place(page)
+    for when, wanted in ((0, (FIXED, FIXED, UNMOVED)), (1, (FIXED, GROUND, GROUND))):
+        set_slider(page, when)
+        picture = page.picture(".map canvas")
+        seen = [picture.at(*pixel(box, at, x, y)) for x, y in ((5, 5), (5, 0.5), (14, 2))]
+        demand(all(map(near, seen, wanted)), "at %s the houses are drawn as %s" % (when, seen))
+        x, y = pixel(box, at, 5, 0.5)
+        left, top = map_box(page)[:2]  # the picture scrolled the page
+        page.mouse("mouseMoved", left + x, top + y)
+        told = page.evaluate("document.querySelector('.about').hidden ? '' : document.querySelector('.about').textContent")
+        demand(told.startswith("left") and "another shape" in told if when == 0 else told == "",
+               "at %s what the left house loses is told as '%s'" % (when, told))
+    demand("hidden" in page.evaluate("document.querySelector('.legend').textContent"), "the legend does not tell what is hidden")
+    quiet(page, "smaller.html")
+
+
 # ---- The town ------------------------------------------------------------------------------------------------------------
 def town_features():
     with open(os.path.join(folder, "town.geojson")) as file:
@@ -437,7 +456,7 @@ def ask_degenerate(browser):
 
 
 with Browser(program, profile) as opened:
-    for ask in (ask_two, ask_under, ask_town, ask_print, ask_keys, ask_marks, ask_lede, ask_hostile, ask_many, ask_degenerate):
+    for ask in (ask_two, ask_under, ask_smaller, ask_town, ask_print, ask_keys, ask_marks, ask_lede, ask_hostile, ask_many, ask_degenerate):
         print("----", ask.__name__)
         ask(opened)
 sys.exit(1 if wrong else 0)

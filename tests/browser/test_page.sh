@@ -53,6 +53,16 @@ id,WKT
 1,"LINESTRING(-20 5,20 5)"
 X
 expect 3 separate under.gpkg under_out.gpkg --max-shift 1 --barrier way.gpkg,width=3 --report under.html -q
+# Of two houses with a common wall and two others, one is hidden, and one becomes smaller.
+layer near.gpkg houses POLYGON <<'X'
+WKT,name,class
+"POLYGON((0 0,10 0,10 10,0 10,0 0))",left,1
+"POLYGON((10 0,20 0,20 10,10 10,10 0))",right,1
+"POLYGON((0 -12,8 -12,8 -2,0 -2,0 -12))",rigid1,0
+"POLYGON((17 5,24 5,24 9,17 9,17 5))",rigid2,0
+X
+expect 0 separate near.gpkg smaller_out.gpkg --gap 3 --max-shift 0 --rows no --touch-tolerance 0 --inset 1,2 \
+    --rigid-where "name LIKE 'rigid%'" --hierarchy-field class --hide --id-field name --report smaller.html -q
 layer far.gpkg far POLYGON <<'X'
 id,WKT
 1,"POLYGON((-1e300 -1e300,1e300 -1e300,1e300 1e300,-1e300 -1e300))"

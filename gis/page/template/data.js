@@ -66,17 +66,19 @@ function readBarriers(text, step) {
   return barriers.sort((a, b) => a.width - b.width); // so that many can be drawn at once
 }
 
-function boxesOf(shapes, count) {
+// The boxes of features, before and after together.
+function boxesOf(before, after, count) {
   const boxes = new Float64Array(4 * count);
   for (let f = 0; f < count; f++) {
     let x0 = Infinity, y0 = Infinity, x1 = -Infinity, y1 = -Infinity;
-    for (let i = shapes.cornersOf[shapes.ringsOf[f]]; i < shapes.cornersOf[shapes.ringsOf[f + 1]]; i++) {
-      const x = shapes.corners[2 * i], y = shapes.corners[2 * i + 1];
-      if (x < x0) x0 = x;
-      if (x > x1) x1 = x;
-      if (y < y0) y0 = y;
-      if (y > y1) y1 = y;
-    }
+    for (const shapes of [before, after])
+      for (let i = shapes.cornersOf[shapes.ringsOf[f]]; i < shapes.cornersOf[shapes.ringsOf[f + 1]]; i++) {
+        const x = shapes.corners[2 * i], y = shapes.corners[2 * i + 1];
+        if (x < x0) x0 = x;
+        if (x > x1) x1 = x;
+        if (y < y0) y0 = y;
+        if (y > y1) y1 = y;
+      }
     boxes.set([x0, y0, x1, y1], 4 * f);
   }
   return boxes;
@@ -100,7 +102,8 @@ function readLayer(data) {
     layer.anchor.set([x * step, y * step], 2 * f);
   }
   layer.shapes = readShapes(data.shape, count, step);
-  layer.boxes = boxesOf(layer.shapes, count);
+  layer.after = readShapes(data.after || "A".repeat(count), count, step);
+  layer.boxes = boxesOf(layer.shapes, layer.after, count);
   layer.barriers = readBarriers(data.barrier, step);
   layer.conflicts = [];
   const links = numberReader(data.conflict);
@@ -116,8 +119,12 @@ function readLayer(data) {
   return layer;
 }
 
+// Became a feature larger or smaller? Half way it has the shape that the result gives it.
+const isChanged = (layer, f) => layer.after.ringsOf[f + 1] > layer.after.ringsOf[f];
+const shapesAt = (layer, f, part) => part >= 0.5 && isChanged(layer, f) ? layer.after : layer.shapes;
+
 // The features that are drawn together: what stands still lies lowest, what is in conflict on top.
-const drawingOrder = [4, 0, 2, 1, 3];
+const drawingOrder = [5, 4, 0, 2, 1, 3];
 
 function featuresByStatus(layer) {
   const lists = statusNames.map(() => []);

@@ -18,7 +18,7 @@ const fewFeatures = 4000, manyCorners = 100;
 
 // Puts a feature's rings, moved by a part of its move, into the path that is open. Returns how many corners.
 function traceFeature(context, layer, view, f, part) {
-  const { ringsOf, cornersOf, corners } = layer.shapes;
+  const { ringsOf, cornersOf, corners } = shapesAt(layer, f, part);
   const x = view.x + part * layer.move[2 * f] * view.scale, y = view.y - part * layer.move[2 * f + 1] * view.scale;
   for (let r = ringsOf[f]; r < ringsOf[f + 1]; r++) {
     for (let i = cornersOf[r]; i < cornersOf[r + 1]; i++) {
@@ -71,13 +71,15 @@ function drawFeatures(context, layer, view, features, part, fill, line, few, wid
   context.globalAlpha = 1;
 }
 
-function drawGhosts(context, layer, view, features, colours) {
-  context.strokeStyle = colours.stoodLine;
+// The outlines that features had, of those that moved, changed or are hidden.
+function drawGhosts(context, layer, view, features, line) {
+  context.strokeStyle = line;
   context.lineWidth = 1;
   context.setLineDash([3, 2.5]);
   for (const f of features) {
     const length = Math.hypot(layer.move[2 * f], layer.move[2 * f + 1]) * view.scale;
-    if (length < 1 || sizeInView(layer, view, f, 0) < leastGhost) continue;
+    const differs = length >= 1 || isChanged(layer, f) || statusNames[layer.status[f]] === "hidden";
+    if (!differs || sizeInView(layer, view, f, 0) < leastGhost) continue;
     context.beginPath();
     traceFeature(context, layer, view, f, 0);
     context.stroke();
@@ -269,6 +271,12 @@ function mix(from, to, part) {
   return "#" + channel(0) + channel(1) + channel(2);
 }
 
+// Where features are hidden: as they were up to half way, then dotted.
+function drawHidden(context, layer, view, features, part, few, colours) {
+  if (part < 0.5) drawFeatures(context, layer, view, features, part, colours.unmoved, colours.unmovedLine, few, 0.8);
+  else drawGhosts(context, layer, view, features, colours.skippedLine);
+}
+
 // The whole picture. What moved goes from amber to green on its way.
 function drawLayer(context, layer, lists, view, part, colours) {
   context.fillStyle = colours.ground;
@@ -278,14 +286,18 @@ function drawLayer(context, layer, lists, view, part, colours) {
   for (let f = 0; f < layer.count && seen <= fewFeatures; f++) seen += sizeInView(layer, view, f, part) >= leastShape;
   for (const status of drawingOrder) {
     const name = statusNames[status], from = name === "moved" ? "stood" : name;
+    if (name === "hidden") {
+      drawHidden(context, layer, view, lists[status], part, seen <= fewFeatures, colours);
+      continue;
+    }
     const fill = part === 1 ? colours[name] : mix(colours[from], colours[name], part);
     const line = part === 1 ? colours[name + "Line"] : mix(colours[from + "Line"], colours[name + "Line"], part);
     drawFeatures(context, layer, view, lists[status], part, fill, line, seen <= fewFeatures, name === "blocked" ? 1.8 : 0.8);
   }
   if (seen <= fewFeatures) drawUnderpasses(context, layer, view, colours);
   if (part > 0)
-    for (const status of [1, 3]) {
-      drawGhosts(context, layer, view, lists[status], colours);
+    for (const status of [0, 2, 1, 3]) {
+      drawGhosts(context, layer, view, lists[status], colours.stoodLine);
       drawArrows(context, layer, view, lists[status], colours);
     }
   if (part === 1) drawLinks(context, layer, view, colours);

@@ -142,8 +142,8 @@ function makeMap(layer) {
   }
 
   // ---- What is under the pointer ----
-  function holds(f, x, y) {
-    const { ringsOf, cornersOf, corners } = layer.shapes;
+  function holds(f, x, y, part) {
+    const { ringsOf, cornersOf, corners } = shapesAt(layer, f, part);
     let inside = false;
     for (let r = ringsOf[f]; r < ringsOf[f + 1]; r++)
       for (let i = cornersOf[r], j = cornersOf[r + 1] - 1; i < cornersOf[r + 1]; j = i++) {
@@ -159,7 +159,7 @@ function makeMap(layer) {
     for (const status of drawingOrder.slice().reverse())
       for (const f of lists[status]) {
         const u = x - part * layer.move[2 * f], v = y - part * layer.move[2 * f + 1], b = layer.boxes;
-        if (u >= b[4 * f] && u <= b[4 * f + 2] && v >= b[4 * f + 1] && v <= b[4 * f + 3] && holds(f, u, v)) return f;
+        if (u >= b[4 * f] && u <= b[4 * f + 2] && v >= b[4 * f + 1] && v <= b[4 * f + 3] && holds(f, u, v, part)) return f;
       }
     return -1;
   }
@@ -170,7 +170,8 @@ function makeMap(layer) {
     const length = Math.hypot(layer.move[2 * f], layer.move[2 * f + 1]), status = statusNames[layer.status[f]];
     const words = { unmoved: "unmoved", moved: "", fixed: "fixed", blocked: "still in conflict", skipped: "left aside", hidden: "hidden" }[status];
     const way = length > 0 ? "moved by " + lengthWords(length, layer.unit, layer.step) : "";
-    about.textContent = layer.label[f] + " \u00b7 " + [way, words].filter(Boolean).join(", ");
+    const shape = isChanged(layer, f) ? "another shape" : "";
+    about.textContent = layer.label[f] + " \u00b7 " + [way, words, shape].filter(Boolean).join(", ");
   }
 
   // ---- Hands ----
