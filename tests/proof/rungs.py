@@ -8,8 +8,8 @@ program may be off by a hair.
     scaled   the shape as given, scaled about some point; of a feature in no block with others
     square   a square along the longest edge of the shape as given
 
-A side is a part of an edge of a member, trimmed or as given, that no edge of another member as given accompanies up to the block
-tolerance, and that does not lie in another member as given.
+A side is a part of an edge of a member that no edge of another member accompanies up to the block tolerance, and that does not lie in
+another member: all of them trimmed, or as given where they have no trimmed shape.
 """
 from fractions import Fraction
 
@@ -98,18 +98,17 @@ class Rungs:
 
     def sides(self, block):
         if block not in self.known:
-            given = {fid: directed_edges(self.problem.original[fid]) for fid in block}
             own = {fid: directed_edges(self.base(fid)) for fid in block}
-            self.known[block] = [s for fid in block for e in own[fid] for s in self.parts(fid, e, given)] if len(block) > 1 else own[block[0]]
+            self.known[block] = [s for fid in block for e in own[fid] for s in self.parts(fid, e, own)] if len(block) > 1 else own[block[0]]
             self.known[block] = in_line(self.known[block], self.hair(block[0], POINT), self.hair(block[0]))
         return self.known[block]
 
-    def parts(self, fid, e, given):
+    def parts(self, fid, e, edges):
         """The parts of an edge that are sides: it is divided where edges of other members begin to accompany it, or cross it."""
         hair = self.hair(fid)
         tolerance = max(self.problem.lattice(self.problem.tolerance), hair) + hair
         box = plane.edge_box(e)
-        close = [(other, g) for other, own in given.items() if other != fid for g in own if plane.boxes_near(plane.edge_box(g), box, tolerance)]
+        close = [(other, g) for other, own in edges.items() if other != fid for g in own if plane.boxes_near(plane.edge_box(g), box, tolerance)]
         at = sorted({Fraction(0), Fraction(1), *(t for _, g in close for t in divisions(e, g) if 0 < t < 1)})
         found, goes_on = [], False
         for s, t in zip(at, at[1:]):
@@ -124,7 +123,7 @@ class Rungs:
         if any(accompanies(e, g) and is_beside(p, g) and is_near(p, [g], tolerance) for _, g in close):
             return True
         for other in self.problem.blocks.block(fid):
-            if other != fid and any(o.box and plane.locate(o, p) > 0 for o in self.problem.original[other].outlines):
+            if other != fid and any(o.box and plane.locate(o, p) > 0 for o in self.base(other).outlines):
                 return not is_near(p, [g for m, g in close if m == other], tolerance - 2 * hair)
         return False
 

@@ -32,7 +32,8 @@ typedef struct edge {
 typedef struct finder {
     const sunder_i_model *model;
     const sunder_i_body *body;
-    edge *edge; /* those of all members as given */
+    const sunder_shape *const *shape; /* by feature */
+    edge *edge;                       /* those of all members */
     size_t edges, room;
     double *box; /* [4 * members] */
     sunder_i_rtree tree;
@@ -50,7 +51,11 @@ static void vector_of(const double from[2], const double to[2], double out[2])
     for (int c = 0; c < 2; c++) out[c] = to[c] - from[c];
 }
 
-static uint32_t member_of(const finder *f, uint32_t m) { return f->model->member[f->body->member + m]; }
+/* The shape of member m of the body; NULL: none. */
+static const sunder_shape *shape_of(const finder *f, uint32_t m)
+{
+    return f->shape[f->model->member[f->body->member + m]];
+}
 
 /* ---- Edges ------------------------------------------------------------------------------------------------------- */
 
@@ -65,7 +70,7 @@ static bool take_edges(finder *f)
 {
     double *box = f->box;
     for (uint32_t m = 0; m < f->body->members; m++, box += 4) {
-        const sunder_shape *shape = sunder_i_given_shape(f->model, member_of(f, m));
+        const sunder_shape *shape = shape_of(f, m);
         box[0] = box[1] = INFINITY;
         box[2] = box[3] = -INFINITY;
         if (!shape || sunder_shape_is_empty(shape)) continue;
@@ -157,7 +162,7 @@ static bool lies_inside(const finder *f, const double p[2], uint32_t own)
     for (uint32_t m = 0; m < f->body->members; m++) {
         const double *box = f->box + 4 * (size_t)m;
         if (m == own || !(p[0] > box[0] && p[0] < box[2] && p[1] > box[1] && p[1] < box[3]) ||
-            !is_inside(sunder_i_given_shape(f->model, member_of(f, m)), p))
+            !is_inside(shape_of(f, m), p))
             continue;
         bool near = false, beside;
         for (size_t k = 0; k < f->near.n && !near; k++) {
@@ -333,13 +338,12 @@ static bool add_edges(const sunder_shape *shape, sunder_i_block_outline *out)
     return true;
 }
 
-static bool find_among_members(finder *f, const sunder_shape *const *shape, sunder_i_block_outline *out,
-                               sunder_error *err, sunder_status *status)
+static bool find_among_members(finder *f, sunder_i_block_outline *out, sunder_error *err, sunder_status *status)
 {
     f->box = sunder_i_alloc(4 * (size_t)f->body->members, sizeof *f->box);
     if (!f->box || !take_edges(f) || !index_edges(f, err, status)) return false;
     for (uint32_t m = 0; m < f->body->members; m++) {
-        const sunder_shape *own = shape[member_of(f, m)];
+        const sunder_shape *own = shape_of(f, m);
         for (uint32_t v = 0; own && v < own->vertices; v++) {
             edge e;
             edge_of(own, v, m, &e);
@@ -353,19 +357,18 @@ sunder_status sunder_i_block_outline_find(const sunder_i_model *model, const sun
                                           const sunder_shape *const *shape, sunder_i_block_outline *out,
                                           sunder_error *err)
 {
-    finder f = {.model = model, .body = body};
+    finder f = {.model = model, .body = body, .shape = shape};
     sunder_status status = SUNDER_OK;
     double most = 0;
     out->n = 0;
     for (uint32_t m = 0; m < body->members; m++) {
-        const sunder_shape *one = shape[member_of(&f, m)];
+        const sunder_shape *one = shape_of(&f, m);
         for (int c = 0; one && c < 4; c++) most = sunder_i_max(most, fabs(one->box[c]));
     }
     out->margin = most * MARGIN;
     f.tolerance = sunder_i_max(model->rules.tolerance, 2 * out->margin);
-    const sunder_shape *first = shape[member_of(&f, 0)];
-    const bool ok =
-        body->members > 1 ? find_among_members(&f, shape, out, err, &status) : !first || add_edges(first, out);
+    const sunder_shape *first = shape_of(&f, 0);
+    const bool ok = body->members > 1 ? find_among_members(&f, out, err, &status) : !first || add_edges(first, out);
     sunder_i_rtree_free(&f.tree);
     sunder_i_free_all(f.edge, f.box, f.near.item, f.at);
     return ok ? SUNDER_OK : status ? status : sunder_i_failure_cause(err);

@@ -1,6 +1,6 @@
 /* Blocks with their outlines moved in: named cases with areas known by hand. */
-#include "sunder_hiding.h"
 #include "simple_polygon.h"
+#include "sunder_hiding.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -129,9 +129,34 @@ static void check_conditions(void **state)
     sunder_shape_free(from);
 }
 
+/* One of two houses is trimmed. What it no longer covers of their wall is outline. */
+static void check_trimmed_neighbour(void **state)
+{
+    (void)state;
+    const double a[] = {0, 0, 10, 0, 10, 10, 0, 10}, b[] = {10, 0, 20, 0, 20, 10, 10, 10},
+                 less[] = {0, 3, 10, 3, 10, 10, 0, 10}, one = 1;
+    sunder_shape *const house[] = {simple_polygon(a, 4), simple_polygon(b, 4)};
+    sunder_shape *from[] = {simple_polygon(less, 4), NULL}, *left[2];
+    const sunder_feature feature[] = {{.shape = house[0], .weight = 1, .max_shift = INFINITY, .block = -1},
+                                      {.shape = house[1], .weight = 1, .max_shift = INFINITY, .block = -1}};
+    sunder_layer *layer;
+    sunder_layer_options options;
+    sunder_error err;
+    sunder_layer_options_init(&options);
+    assert_int_equal(sunder_layer_new(feature, 2, &layer, &err), SUNDER_OK);
+    assert_int_equal(sunder_layer_inset(layer, &options, &(sunder_inset){&one, 1, 0}, from, left, &err), SUNDER_OK);
+    assert_true(fabs(sunder_shape_area(left[0]) - 9 * 5) < 1e-9);
+    assert_true(fabs(sunder_shape_area(left[1]) - (9 * 8 - 1 * 3)) < 1e-9);
+    sunder_layer_free(layer);
+    free_all(left, 2);
+    free_all(from, 1);
+    sunder_shape_free(house[0]);
+    sunder_shape_free(house[1]);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(check_single_polygons), cmocka_unit_test(check_blocks),
-                                       cmocka_unit_test(check_conditions)};
+                                       cmocka_unit_test(check_trimmed_neighbour), cmocka_unit_test(check_conditions)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
