@@ -19,6 +19,10 @@
 /* Moved sides meet in a corner if the cosine of their turn is at least this: up to 120 degrees. */
 #define SHARPEST_TURN (-0.5)
 
+/* Outside of the outline strips are longer by this multiple of the margin, at both ends: more than the tangent of half
+ * of the sharpest turn. Where the outline turns inwards, adjacent strips then overlap up to their common corner. */
+#define OVERLAP 2
+
 typedef struct insetter {
     const sunder_layer *layer;
     const sunder_inset *how;
@@ -78,7 +82,7 @@ static joint join_strips(const directed *a, const directed *b, double depth, dou
         return j;
     }
     const double longer = turn < 0 ? sunder_i_min(bend, 1) : 0;
-    j.gapes = turn <= 0 && cosine <= SHARPEST_TURN;
+    j.gapes = !meet || (turn <= 0 && cosine <= SHARPEST_TURN);
     beside(a, corner, depth, longer, j.end);
     beside(b, other, depth, -longer, j.start);
     return j;
@@ -95,6 +99,15 @@ static bool add_polygon(sunder_i_cuts *cuts, const double *xy, size_t n)
     return true;
 }
 
+/* Fills the space between a strip that ends at `to` and one that begins at `from`. */
+static bool add_fill(sunder_i_cuts *cuts, const double to[2], const double from[2], const joint *j)
+{
+    double corner[8] = {to[0], to[1], from[0], from[1], j->start[0], j->start[1], j->end[0], j->end[1]};
+    double hull[10];
+    const size_t n = sunder_i_convex_hull(corner, 4, hull);
+    return n < 3 || add_polygon(cuts, hull, n);
+}
+
 /* Adds the strip along a side, and what fills the space between it and the next one. Strips begin somewhat outside of
  * the outline, so that rounded ends of sides leave nothing of it. */
 static bool add_strip(const sunder_i_block_outline *outline, size_t k, double depth, sunder_i_cuts *cuts)
@@ -103,8 +116,8 @@ static bool add_strip(const sunder_i_block_outline *outline, size_t k, double de
     const directed own = direct(side);
     double strip[8];
     joint at_end = {.gapes = false};
-    beside(&own, side->from, -outline->margin, 0, strip);
-    beside(&own, side->to, -outline->margin, 0, strip + 2);
+    beside(&own, side->from, -outline->margin, OVERLAP, strip);
+    beside(&own, side->to, -outline->margin, -OVERLAP, strip + 2);
     beside(&own, side->to, depth, 0, strip + 4);
     beside(&own, side->from, depth, 0, strip + 6);
     if (side->next != SUNDER_I_NO_SIDE) {
@@ -118,8 +131,7 @@ static bool add_strip(const sunder_i_block_outline *outline, size_t k, double de
         memcpy(strip + 6, at_start.start, sizeof at_start.start);
     }
     if (!add_polygon(cuts, strip, 4)) return false;
-    const double fill[6] = {side->to[0], side->to[1], at_end.start[0], at_end.start[1], at_end.end[0], at_end.end[1]};
-    return !at_end.gapes || add_polygon(cuts, fill, 3);
+    return !at_end.gapes || add_fill(cuts, side->to, outline->side[side->next].from, &at_end);
 }
 
 /* Lists the zones of the block whose boxes meet the box. */
