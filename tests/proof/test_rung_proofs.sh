@@ -36,4 +36,11 @@ untrue 'shape of the rung before;shape of no rung;shape that is too large for it
 proved town.gpkg "${rules[@]}" --trim --crossed trim --inset 0.5,1 --symbol-size 4 --hierarchy-field class --rows no --ease no
 proved town.gpkg "${rules[@]}" --trim --inset 0.5,1 --symbol-size 4 --rigid-where 'class = 2'
 proved town.gpkg "${rules[@]:0:6}" --inset 0.5,1 --min-size 3
+
+# Terraces and yards of which some houses are trimmed: the outline that is moved in is that of the trimmed ones.
+/usr/bin/python3 -c 'from osgeo import ogr; import shapely' 2>/dev/null || { echo "without GDAL's Python module or shapely: no terraces"; finish; exit 0; }
+/usr/bin/python3 "$SUNDER_SOURCE/tests/cli/corner_worlds.py" "$SUNDER" 5 4 || fail "the terraces"
+ogr2ogr -q terraces.gpkg inset_houses.gpkg inset_houses -nln buildings
+proved terraces.gpkg --gap 3 --max-shift 0.1 --rows no --touch-tolerance 0.1 --trim --trim-keep 0.3 --inset 0.5,1,1.5 --crossed trim \
+    --barrier inset_roads.gpkg,width-field=w,gap=0.5 --min-size 3 --hide --hide-weight 1 --rigid-where 'n % 9 = 4'
 finish
