@@ -35,7 +35,7 @@ alike() {
 }
 
 for layout in chain block one_place few duplicates great clusters; do
-    alike $layout '2 7' --gap 2 --effort 0.05
+    alike $layout '2 7' --gap 2 --effort 0.01
     alike $layout '3' --gap 1 --effort 0 --block-field blk --contained separate --max-shift 20
 done
 alike block '1 64' --gap 2 --effort 0.05
@@ -53,7 +53,7 @@ alike streets '1 2 7' --gap 2 --effort 0.05 --rows auto
 cp whole.json streets.json
 alike streets '5' --gap 3 --effort 0 --rows auto --row-stiffness 10,1 --block-field blk --max-shift 20
 alike streets '4' --gap 2 --effort 0 --rows auto --max-shift 6 --barrier line.geojson,width-field=width,gap=0.5
-alike clusters '3' --gap 2 --effort 0.05 --rows auto --no-blocks
+alike clusters '3' --gap 2 --effort 0.01 --rows auto --no-blocks
 # Rows of a field, with blocks of far members, and among roads.
 alike streets '2 7' --gap 2 --effort 0 --rows street --max-shift 20 --ease 5 --block-field ends
 cp whole.json given.json
