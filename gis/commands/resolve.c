@@ -202,8 +202,6 @@ static bool resolve_room(const gis_options *options, gis_layer_rules *out, gis_e
     for (size_t i = 0; asked && i < sizeof not_with / sizeof *not_with; i++)
         if (options->given[not_with[i]])
             return gis_fail_usage(error, "%s: not with %s", asked, gis_option_table[not_with[i]].names);
-    if (out->enlarge && options->given[OPT_PROOF]) /* the checker knows the shapes as given */
-        return gis_fail_usage(error, "--enlarge: not with %s", gis_option_table[OPT_PROOF].names);
     if (options->given[OPT_ENLARGE] && (options->given[OPT_SYMBOL] || options->given[OPT_SYMBOL_FIELD]))
         return gis_fail_usage(error, "--enlarge: polygons are made larger, and symbols have their sizes");
     if (options->given[OPT_TRIM] && !options->given[OPT_BARRIER])

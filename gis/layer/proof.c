@@ -39,6 +39,8 @@ static void count_hiding(const gis_proof_lines *lines, const gis_layer_input *in
     sunder_report_hiding(lines->report, &hiding);
     head->hide = true;
     head->hidden = hiding.hidden;
+    head->enlarge = input->request->rules.enlarge;
+    head->larger = input->enlarged;
     const gis_levels *levels = &input->levels;
     for (size_t k = 0; k < levels->features * levels->rungs; k++) head->shapes += levels->shape[k] != NULL;
     head->clauses = hiding.proved;
@@ -98,6 +100,19 @@ static bool put_hidden(gis_proof_lines *lines, FILE *to, gis_error *error)
         gis_json_raw(&lines->json, "\n");
         lines->json.need_comma = false;
         done = gis_proof_print(&lines->json, to, error);
+    }
+    return done;
+}
+
+/* Writes a line for each larger shape. */
+static bool put_larger(gis_proof_lines *lines, const gis_layer_input *input, gis_json *line, FILE *to, gis_error *error)
+{
+    bool done = true;
+    size_t k = 0;
+    for (size_t i = 0; i < input->n && input->given && done; i++) {
+        if (!input->given[i]) continue;
+        gis_proof_larger(lines, i, input->shape[i]);
+        done = put_line(lines, "larger", k++, line, to, error);
     }
     return done;
 }
@@ -202,10 +217,10 @@ bool gis_proof_write(const gis_layer_input *input, const sunder_report *report, 
     gis_proof_lines lines;
     gis_json line = {0};
     const bool done = gis_proof_lines_begin(&lines, &things, report, error) && put_head(&lines, input, to, error) &&
-                      put_blocks(&lines, to, error) && put_hidden(&lines, to, error) &&
-                      put_shapes(&lines, input, &line, to, error) && put_rows(&lines, to, error) &&
-                      put_conflicts(&lines, &line, to, error) && put_trees(&lines, &line, to, error) &&
-                      put_choices(&lines, &line, to, error);
+                      put_blocks(&lines, to, error) && put_larger(&lines, input, &line, to, error) &&
+                      put_hidden(&lines, to, error) && put_shapes(&lines, input, &line, to, error) &&
+                      put_rows(&lines, to, error) && put_conflicts(&lines, &line, to, error) &&
+                      put_trees(&lines, &line, to, error) && put_choices(&lines, &line, to, error);
     gis_proof_lines_clear(&lines);
     gis_json_clear(&line);
     return done;

@@ -1,14 +1,10 @@
-/* proof_hiding.c: the lines of --proof about what is hidden or smaller: smaller shapes, the clauses with their proofs,
- * and the trees of the bound. */
+/* proof_hiding.c: the lines of --proof about what is hidden, larger or smaller: larger and smaller shapes, the clauses
+ * with their proofs, and the trees of the bound. */
 #include "layer/proof_lines.h"
 
-void gis_proof_shape(gis_proof_lines *lines, size_t feature, size_t level, size_t rung, const sunder_shape *shape)
+static void put_polygons(gis_proof_lines *lines, const sunder_shape *shape)
 {
     gis_json *json = &lines->json;
-    gis_proof_thing(lines, "fid", feature);
-    gis_json_put_size(json, "level", level);
-    gis_json_put_size(json, "rung", rung);
-    if (sunder_report_level(lines->report, feature) == level) gis_json_put_bool(json, "taken", true);
     gis_json_key(json, "polygons");
     gis_json_open(json, '[');
     for (size_t p = 0; p < sunder_shape_polygons(shape); p++) {
@@ -21,6 +17,22 @@ void gis_proof_shape(gis_proof_lines *lines, size_t feature, size_t level, size_
         gis_json_close(json, ']');
     }
     gis_json_close(json, ']');
+}
+
+void gis_proof_larger(gis_proof_lines *lines, size_t feature, const sunder_shape *shape)
+{
+    gis_proof_thing(lines, "fid", feature);
+    put_polygons(lines, shape);
+}
+
+void gis_proof_shape(gis_proof_lines *lines, size_t feature, size_t level, size_t rung, const sunder_shape *shape)
+{
+    gis_json *json = &lines->json;
+    gis_proof_thing(lines, "fid", feature);
+    gis_json_put_size(json, "level", level);
+    gis_json_put_size(json, "rung", rung);
+    if (sunder_report_level(lines->report, feature) == level) gis_json_put_bool(json, "taken", true);
+    put_polygons(lines, shape);
 }
 
 void gis_proof_clause(gis_proof_lines *lines, const sunder_clause *clause)

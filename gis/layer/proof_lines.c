@@ -473,6 +473,7 @@ static void put_hiding(gis_json *json, const gis_proof_head *head)
     gis_json_key(json, "hide");
     gis_json_open(json, '{');
     gis_json_put_size(json, "hidden", head->hidden);
+    if (head->enlarge) gis_json_put_size(json, "larger", head->larger);
     gis_json_put_size(json, "shapes", head->shapes);
     gis_json_put_size(json, "clauses", head->clauses);
     gis_json_put_size(json, "choices", head->choices);

@@ -44,7 +44,9 @@ size_t gis_proof_block(const gis_proof_lines *lines, size_t feature);
 /* Make the text that follows the number of conflict k, or of a tree's group. */
 void gis_proof_conflict(gis_proof_lines *lines, size_t k);
 bool gis_proof_tree(gis_proof_lines *lines, const sunder_bound_tree *tree, gis_error *error);
-/* proof_hiding.c: the text that follows the number of a smaller shape, which has this level of the feature, and this
+/* proof_hiding.c: the text that follows the number of a larger shape. */
+void gis_proof_larger(gis_proof_lines *lines, size_t feature, const sunder_shape *shape);
+/* The same for the text that follows the number of a smaller shape, which has this level of the feature, and this
  * rung of the run. */
 void gis_proof_shape(gis_proof_lines *lines, size_t feature, size_t level, size_t rung, const sunder_shape *shape);
 /* The same for the text that follows the number of a clause, or of tree k of the bound of what is hidden.
@@ -75,10 +77,10 @@ typedef struct gis_proof_head {
     double max_shift;
     const sunder_layer_summary *summary;
     size_t conflicts, trees;
-    /* Only with --hide or --trim: the numbers of hidden features, of smaller shapes, of proved clauses, and of trees of
-     * their bound, and that bound by classes. */
-    bool hide;
-    size_t hidden, shapes, clauses, choices;
+    /* Only with options of this kind: the numbers of hidden features, of larger shapes (only with `enlarge`), of
+     * smaller ones, of proved clauses, and of trees of their bound, and that bound by classes. */
+    bool hide, enlarge;
+    size_t hidden, larger, shapes, clauses, choices;
     const sunder_hiding_class *class;
     size_t classes;
 } gis_proof_head;

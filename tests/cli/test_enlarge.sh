@@ -104,7 +104,6 @@ expect 2 separate h.gpkg x.gpkg --enlarge --min-size 0
 grep -q -- '--enlarge: --min-size 0 must be above 0' err || fail "the message: $(cat err)"
 expect 2 separate h.gpkg x.gpkg --enlarge --min-size=-1
 expect 2 separate h.gpkg x.gpkg --enlarge --min-size 3 --max-memory 1G
-expect 2 separate h.gpkg x.gpkg --enlarge --min-size 3 --proof p.jsonl
 expect 2 separate h.gpkg x.gpkg --enlarge --min-size 3 --symbol disc:1
 expect 2 plan h.gpkg x --shards 2 --enlarge --min-size 3
 expect 2 check h.gpkg --enlarge --min-size 3

@@ -18,6 +18,7 @@ import form  # noqa: E402
 import trees  # noqa: E402
 import verdicts  # noqa: E402
 from eased import Eased  # noqa: E402
+from enlarging import Enlarging  # noqa: E402
 from form import NotRead, Refused, demand, shown  # noqa: E402
 from given_rows import GivenRows  # noqa: E402
 from hiding import Hiding  # noqa: E402
@@ -57,6 +58,7 @@ def read_options(words):
     parser.add_argument("--trim-keep", type=float, default=0.5)
     parser.add_argument("--inset", default="")
     parser.add_argument("--symbol-size")
+    parser.add_argument("--enlarge", action="store_true")
     parser.add_argument("--min-size", help="not verified of smaller shapes")
     for name in ("effort", "seed", "id-field", "threads"):
         parser.add_argument("--" + name, help="no part of what is claimed")
@@ -88,12 +90,19 @@ class Checker:
 
     def __init__(self, options):
         self.problem = Problem(options.input, options)
-        if options.row_stiffness:
-            self.problem.rows = (GivenRows if options.rows_field else Rows)(self.problem, options.row_stiffness)
-        self.problem.eased = Eased(self.problem, options.ease)
+        self.enlarging = Enlarging(self.problem, self.problem.options.min_size) if options.enlarge else None
+        if not self.enlarging:
+            self.begin()
         self.hiding = Hiding(self.problem, self.problem.options) if self.problem.makes_room() else None
         self.known, self.kept, self.held = {}, set(), {}
         self.result = Result(self.problem, options.result) if options.result else None
+
+    def begin(self):
+        """Finds what depends on the shapes at the level 0."""
+        problem, options = self.problem, self.problem.options
+        if options.row_stiffness:
+            problem.rows = (GivenRows if options.rows_field else Rows)(problem, options.row_stiffness)
+        problem.eased = Eased(problem, options.ease)
 
     def check(self, lines):
         """lines: an iterable of JSON objects, read twice. Returns a description of what was verified."""
@@ -101,6 +110,9 @@ class Checker:
         check_header(proof.head, problem.options, problem.name)
         problem.blocks.demand_all(proof.blocks)
         demand(("hide" in proof.head) == bool(self.hiding), "the proof is of another problem, with or without hidden features")
+        demand(("larger" in proof.head.get("hide", {})) == bool(self.enlarging), "the proof is of another problem, with or without larger features")
+        if self.enlarging and (problem.set_larger(self.enlarging.read(proof.larger)) or not problem.eased):
+            self.begin()
         if self.hiding:
             self.hiding.begin(proof.hidden)
             self.hiding.read_shapes(proof.shapes)
@@ -111,7 +123,7 @@ class Checker:
             problem.rows.demand_all(proof.rows)
         if self.hiding:
             problem.set_levels(self.hiding.taken)
-        listed = repr((sorted(problem.listed.items()), proof.rows, proof.hidden, proof.shapes, sorted((str(c["a"]), str(c["b"]), c["reason"]) for c in proof.conflicts)))
+        listed = repr((sorted(problem.listed.items()), proof.rows, proof.hidden, proof.larger, proof.shapes, sorted((str(c["a"]), str(c["b"]), c["reason"]) for c in proof.conflicts)))
         found, proved = [], 0
         for key, told in proof.statements():
             if key == "group":

@@ -20,6 +20,7 @@ from collections import defaultdict
 import bodies
 import decided
 import eased
+import enlarging
 import false_proofs
 import forgeries
 import form
@@ -33,7 +34,7 @@ import rungs
 import trees
 import verdicts
 
-MODULES = {m.__name__ + ".py": m for m in (trees, bodies, prices, verdicts, decided, problem, rows, rungs, given_rows, eased, hiding)}
+MODULES = {m.__name__ + ".py": m for m in (trees, bodies, prices, verdicts, decided, problem, rows, rungs, enlarging, given_rows, eased, hiding)}
 ENDLESS = {"a node has two parents:", "a row that branches:"}  # without these tests a search would not end
 UNSEEN = {
     "a side, where there is no limit": "of two anchors that lines shut in, but for a narrow way far away: no case is made",

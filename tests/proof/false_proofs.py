@@ -33,7 +33,7 @@ class Case:
     def prepare(self, directory):
         path = os.path.join(directory, self.name + ".gpkg")
         write_layer(path, "buildings", self.layer)
-        words = ["none.jsonl", path, "--layer", "buildings", "--rows", "no", "--ease", "no", *self.options.split()]
+        self.words = words = ["none.jsonl", path, "--layer", "buildings", "--rows", "no", "--ease", "no", *self.options.split()]
         for name, (features, spec) in self.barriers.items():
             file = os.path.join(directory, f"{self.name}.{name}.gpkg")
             write_layer(file, name, features)
@@ -106,12 +106,13 @@ class Case:
 
 def all_cases():
     import false_bounds
+    import false_enlargings
     import false_hidings
     import false_lattices
     import false_prices
     import false_rows
     import false_verdicts
-    return [case for module in (false_bounds, false_hidings, false_prices, false_rows, false_verdicts, false_lattices) for case in module.CASES]
+    return [case for module in (false_bounds, false_enlargings, false_hidings, false_prices, false_rows, false_verdicts, false_lattices) for case in module.CASES]
 
 
 def prepared(directory, names=()):

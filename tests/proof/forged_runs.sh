@@ -90,6 +90,8 @@ forge_generated() {
     only='"shape"' forged trimmed town.gpkg --gap 0.5 --max-shift 0.5 --no-blocks --barrier roads.gpkg,width-field=w --trim --trim-keep 0.3 --hide --crossed hide \
         --hide-weight 1
     only='"shape"' forged rungs town.gpkg --gap 0.5 --max-shift 0.5 --barrier roads.gpkg,width-field=w --inset 0.5,1 --symbol-size 4 --hide --hide-weight 1
+    make_sheds
+    only='"larger"' forged larger sheds.gpkg --gap 3 --max-shift 3 --enlarge --min-size 10 --barrier lanes_by.gpkg,width-field=w
     forged shares squares.gpkg --gap 3 --effort 0
     small_worlds 30 41 55 112 135 156 200 226 261 386 518 549 618 634 652 655 663 673 692 705 755 980 1047 1129 1136 1171 1228 1466 3063 3192 3231
     ease=30 small_worlds 85 188 196 228

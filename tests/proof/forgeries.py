@@ -143,9 +143,10 @@ def counted(lines, claim):
         told[0]["lower_bound"] = sum(t["bound"] for t in told[1:] if "group" in t) if claim else told[0]["lower_bound"]
     for k, t in enumerate(t for t in told if "conflict" in t):
         t["conflict"] = k
-    for name in ("hidden", "shape", "clause", "choice") if told and "hide" in told[0] else ():
+    for name in ("larger", "hidden", "shape", "clause", "choice") if told and "hide" in told[0] else ():
         own = [t for t in told[1:] if name in t]
-        told[0]["hide"][name if name == "hidden" else name + "s"] = len(own)
+        if own or name != "larger":
+            told[0]["hide"][name if name in ("larger", "hidden") else name + "s"] = len(own)
         for k, t in enumerate(own):
             t[name] = k
     groups = sorted({t["group"] for t in told if "group" in t})
@@ -341,7 +342,7 @@ bodies.features.max_shift bodies.features.anchor bodies.barrier bodies.weight bo
 pieces.A pieces.B pieces.shadow pieces.clearance nodes nodes.parent nodes.cuts nodes.cuts.kind nodes.cuts.i nodes.cuts.j nodes.cuts.n
 nodes.cuts.d nodes.cuts.pieces nodes.cuts.share pieces.priced pieces.joined pieces.pieces eased ease row_stiffness row along apart pieces.row springs springs.i springs.j springs.n springs.stiff nodes.forces nodes.by nodes.empty nodes.empty.i nodes.empty.j nodes.empty.pieces prices prices.side
 prices.unit prices.x prices.y prices.columns prices.rows crowded hide hide.hidden hide.shapes hide.clauses hide.choices hide.bound hidden fid clause
-members choice nodes.split nodes.level nodes.shares shape level rung polygons taken""".split()
+members choice nodes.split nodes.level nodes.shares hide.larger larger shape level rung polygons taken""".split()
 
 
 def draw(options, cases, kind_of):

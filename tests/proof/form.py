@@ -204,20 +204,22 @@ group = either("prices", members({**tree, "prices": prices}),
                        {"springs": all_of(spring, 1), "eased": all_of(pair_of(whole, whole), 1)}))
 row = members({"row": whole, "a": integer, "b": integer, "along": place, "apart": number})
 weights = all_of(pair_of(or_null(whole), integer))
-hide = members({"hidden": whole, "shapes": whole, "clauses": whole, "choices": whole, "bound": weights})
+hide = members({"hidden": whole, "shapes": whole, "clauses": whole, "choices": whole, "bound": weights}, {"larger": whole})
 head = members({"sunder_proof": whole, "layer": name, "gap": not_negative, "max_shift": or_null(not_negative),
                 "contained": one_of(("block", "ignore", "separate")), "allow_jumps": boolean,
                 "lower_bound": not_negative, "conflicts": whole, "trees": whole},
                {"row_stiffness": all_of(not_negative, 2, 2), "ease": positive, "least_gap": not_negative, "hide": hide})
 block = members({"block": all_of(integer, 2)})
 hidden = members({"hidden": whole, "fid": integer})
-shape = members({"shape": whole, "fid": integer, "level": whole, "rung": whole, "polygons": all_of(all_of(all_of(place, 3), 1), 1)}, {"taken": true})
+polygons = all_of(all_of(all_of(place, 3), 1), 1)
+larger = members({"larger": whole, "fid": integer, "polygons": polygons})
+shape = members({"shape": whole, "fid": integer, "level": whole, "rung": whole, "polygons": polygons}, {"taken": true})
 clause = members({"clause": whole, "members": all_of(pair_of(integer, whole), 1), "a": thing, "b": thing, "reason": one_of(REASONS)},
                  {"crowded": true, "within": positive, "proof": nodes_of_clause})
 choice_node = either("split", members({"split": integer, "level": whole}),
                      either("unmet", members({"unmet": whole}), members({"shares": all_of(listed_as(whole, or_null(whole), integer))})))
 choice = members({"choice": whole, "bound": weights, "nodes": all_of(choice_node, 1)})
-LINES = {"block": block, "hidden": hidden, "shape": shape, "row": row, "conflict": conflict, "group": group, "clause": clause, "choice": choice}
+LINES = {"block": block, "larger": larger, "hidden": hidden, "shape": shape, "row": row, "conflict": conflict, "group": group, "clause": clause, "choice": choice}
 
 
 def once(pairs):
@@ -244,12 +246,15 @@ class Proof:
 
     def __init__(self, lines, known):
         self.lines, self.known, self.head = lines, known, None
-        self.blocks, self.hidden, self.shapes, self.rows, self.conflicts = [], [], [], [], []
+        self.blocks, self.larger, self.hidden, self.shapes, self.rows, self.conflicts = [], [], [], [], [], []
         for key, found in self.entries():
             if key == "head":
                 self.head = found
             elif key == "block":
                 self.blocks.append(found["block"])
+            elif key == "larger":
+                demand(found["larger"] == len(self.larger), "larger shapes are not in order")
+                self.larger.append(found)
             elif key == "hidden":
                 demand(found["hidden"] == len(self.hidden), "hidden features are not in order")
                 self.hidden.append(found["fid"])
@@ -264,8 +269,10 @@ class Proof:
                 break
         demand(self.head, "an empty proof")
         demand(len(self.conflicts) == self.head["conflicts"], "lines are missing")
-        demand(len(self.hidden) == self.head.get("hide", {}).get("hidden", 0), "lines are missing, or hidden features are not wanted")
-        demand(len(self.shapes) == self.head.get("hide", {}).get("shapes", 0), "lines are missing, or smaller shapes are not wanted")
+        wanted = self.head.get("hide", {})
+        demand(len(self.larger) == wanted.get("larger", 0), "lines are missing, or larger shapes are not wanted")
+        demand(len(self.hidden) == wanted.get("hidden", 0), "lines are missing, or hidden features are not wanted")
+        demand(len(self.shapes) == wanted.get("shapes", 0), "lines are missing, or smaller shapes are not wanted")
         demand([c["conflict"] for c in self.conflicts] == list(range(len(self.conflicts))), "conflicts are not in order")
 
     def entries(self):
@@ -275,7 +282,7 @@ class Proof:
             demand(type(line) is dict and (k > 1 or line.get("sunder_proof") == VERSION), "no proof of this version")
             key = "head" if k == 1 else next((w for w in LINES if w in line), None)
             demand(key, "line", k, "is of no kind")
-            demand(order.index(key) >= at, "line", k, "comes too late: blocks, hidden, shapes, rows, conflicts, groups, clauses, choices")
+            demand(order.index(key) >= at, "line", k, "comes too late: blocks, larger, hidden, shapes, rows, conflicts, groups, clauses, choices")
             at = order.index(key)
             yield key, self.known.get(id(line)) or {"head": head, **LINES}[key](line, f"line {k}")
 

@@ -131,7 +131,7 @@ class Hiding:
             demand(plane.lies_in(shape.whole(), before), "a smaller shape of", fid, "does not lie in the one before")
             if self.rungs.is_trimmed(rung):
                 area = float(sum(map(area_of, polygons), Fraction(0)))
-                demand(area >= problem.options.trim_keep * problem.area(fid) * (1 - 2 ** -40), "a smaller shape of", fid, "keeps too little")
+                demand(area >= problem.options.trim_keep * problem.area_at_home(fid) * (1 - 2 ** -40), "a smaller shape of", fid, "keeps too little")
                 self.demand_cut_back(fid, shape)
             own.append(shape)
             rungs.append(rung)

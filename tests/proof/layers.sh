@@ -143,6 +143,25 @@ make_town() {
         layer roads.gpkg roads LINESTRING
 }
 
+# Features below a least size of 10: a terrace that becomes deeper; sheds, one of them beside a line (which it would cover when it is larger);
+# one turned, with two walls of a nearly common length; one of three wings; one of two parts that would meet; one of two that stay
+# apart, of which one is large enough; and one that is large enough.
+make_sheds() {
+    {
+        echo "WKT,class"
+        printf '%s\n' '"POLYGON((0 0,5 0,5 4,0 4))",1' '"POLYGON((5 0,22 0,22 4,5 4))",1'
+        echo '"POLYGON((33 0,36 0,36 3,34 3,33 3))",1'
+        echo '"POLYGON((41 1,45 1,45 5,41 5))",2'
+        echo '"POLYGON((61 3,67 11,61 15.5,55 7.5))",1'
+        echo '"POLYGON((80 0,110 0,110 30,102 30,102 8,80 8))",2'
+        echo '"MULTIPOLYGON(((130 0,135 0,135 5,130 5)),((137 0,142 0,142 5,137 5)))",1'
+        echo '"MULTIPOLYGON(((160 0,165 0,165 5,160 5)),((187 1,199 1,199 13,187 13,187 6)))",1'
+        echo '"POLYGON((114 12,134 12,134 32,114 32))",2'
+    } | layer sheds.gpkg buildings MULTIPOLYGON
+    printf 'WKT,w\n"LINESTRING(46 -50,46 60)",2\n"LINESTRING(100 -4,210 -4)",4\n' | layer lanes_by.gpkg lanes_by LINESTRING
+    printf 'WKT,w\n"LINESTRING(84 -50,84 60)",1\n"LINESTRING(34 -50,35 60)",1\n' | layer lanes_through.gpkg lanes_through LINESTRING
+}
+
 make_through() {
     printf 'WKT,w\n"LINESTRING(-30 3,40 3)",1\n' | layer through.gpkg through LINESTRING
 }

@@ -15,6 +15,7 @@ from collections import Counter
 import check_proof
 import form
 from hide_mutations import HIDES
+from larger_mutations import LARGER
 from price_mutations import PRICES
 
 CUTS = {"hull": "not forbidden", "disc": "may be cheap", "cone": "do not cover", "limit": "what the limit leaves"}
@@ -558,7 +559,7 @@ class Asker:
             own = [(lines, at) for lines, at in alone if kind in lines[at]]
             for name, mutate in mutations.items():
                 self.ask(name, own, lambda lines, at, m=mutate: m(lines[at]))
-        for name, mutate in HIDES.items() if self.checker.hiding else ():
+        for name, mutate in {**HIDES, **LARGER}.items() if self.checker.hiding else ():
             self.ask(name, [(self.lines, -1)], lambda lines, at, m=mutate: m(lines))
         for name, mutate in () if self.checker.hiding else WHOLE.items():
             self.ask(name, alone, lambda lines, at, m=mutate: m(lines))

@@ -40,10 +40,14 @@ class Thing:
 
     def whole(self):
         """The union of its members; common walls and areas that several cover are inside."""
-        members = [o for o in self.outlines if o.box]
-        if any(have_common_walls(one, other) for k, one in enumerate(members) for other in members[:k]):
-            return union_outline(members, self.lines)
+        if self.is_joined():
+            return union_outline([o for o in self.outlines if o.box], self.lines)
         return plane.Outline([r for p in self.polygons for r in p], self.lines)
+
+    def is_joined(self):
+        """Do members overlap, or share walls?"""
+        members = [o for o in self.outlines if o.box]
+        return any(have_common_walls(one, other) for k, one in enumerate(members) for other in members[:k])
 
     def edges_near(self, box, reach):
         """The edges of its members and lines."""
@@ -131,7 +135,8 @@ class Problem:
                 self.lattice.hold(number)
         self.rigid = source.fids(options.rigid_where)
         self.things = {fid: Thing(self.lattice, f[1], f[2]) for fid, f in layer.features.items()}
-        self.original = dict(self.things)  # the things as given; in self.things features have the shapes of their present levels
+        self.as_read, self.larger = dict(self.things), {}  # the polygons, in doubles, of features that are larger than as read
+        self.original = dict(self.things)  # as read, or larger; in self.things features have the shapes of their present levels
         self.smaller, self.level = {}, {}  # of features: their smaller shapes, the largest first; their present levels above 0
         self.taken = {}  # the polygons, in doubles, of features that are smaller in the result
         self.attributes = {fid: f[0] for fid, f in layer.features.items()}
@@ -164,7 +169,7 @@ class Problem:
         """The options with lengths as doubles in units of the layer."""
         own = argparse.Namespace(**vars(options))
         own.gap = self.units(own.gap, "--gap")
-        for name in ("max_shift", "touch_tolerance", "least_gap", "symbol_size"):
+        for name in ("max_shift", "touch_tolerance", "least_gap", "symbol_size", "min_size"):
             if getattr(own, name) is not None:
                 setattr(own, name, self.units(getattr(own, name), "--" + name.replace("_", "-")))
         own.inset = [self.units(length, "--inset") for length in own.inset.split(",") if length]
@@ -195,10 +200,10 @@ class Problem:
         return self.wholes[key]
 
     def whole_as_given(self, key):
-        if not self.level.get(key):
+        if not self.level.get(key) and key not in self.larger:
             return self.whole(key)
         if key not in self.given_wholes:
-            self.given_wholes[key] = self.original[key].whole()
+            self.given_wholes[key] = self.as_read[key].whole()
         return self.given_wholes[key]
 
     def is_barrier(self, key):
@@ -218,9 +223,9 @@ class Problem:
         return self.crosses(*((b, a) if self.is_barrier(a) else (a, b)))
 
     def makes_room(self):
-        """May features be hidden, or become smaller?"""
+        """May features be hidden, or become smaller or larger?"""
         options = self.options
-        return bool(options.hide or options.trim or options.inset or options.symbol_size is not None)
+        return bool(options.hide or options.trim or options.inset or options.symbol_size is not None or options.enlarge)
 
     def crosses(self, feature, barrier):
         if (feature, barrier) not in self.crossed:
@@ -276,6 +281,10 @@ class Problem:
             self.areas[fid] = float(sum(map(area_of, self.given[fid]), Fraction(0)))
         return self.areas[fid]
 
+    def area_at_home(self, fid):
+        """The area before the feature becomes smaller."""
+        return float(sum(map(area_of, self.larger[fid]), Fraction(0))) if fid in self.larger else self.area(fid)
+
     def median_area(self):
         if self.median is None:
             areas = sorted(self.area(fid) for fid in self.place if fid not in self.skipped)
@@ -290,8 +299,28 @@ class Problem:
         all features."""
         self.visible, self.partial = visible, {}
 
+    def set_larger(self, larger):
+        """Gives features these polygons, in doubles, as the shapes that they have at the level 0. Blocks, areas, side anchors, and which
+        features a barrier crosses stay those of the shapes as read. Returns whether anything changes."""
+        self.set_levels({})
+        changed = {fid for fid in {*self.larger, *larger} if self.larger.get(fid) != larger.get(fid)}
+        self.larger = larger
+        for fid in changed:
+            self.original[fid] = self.things[fid] = Thing(self.lattice, larger[fid], []) if fid in larger else self.as_read[fid]
+            self.wholes.pop(fid, None)
+            self.anchors.pop(fid, None)
+        if changed:
+            self.stood, self.occupied = {}, {}
+        return bool(changed)
+
+    def polygons_at_home(self, fid):
+        return self.larger.get(fid, self.standing[fid])
+
+    def is_repaired(self, fid):
+        return any(a is not b for a, b in zip(self.given[fid], self.standing[fid]))
+
     def set_levels(self, level):
-        """Gives features the shapes of these levels, and all others theirs as given. Blocks, anchors, rows, weights and what holds an
+        """Gives features the shapes of these levels, and all others those of the level 0. Blocks, anchors, rows, weights and what holds an
         anchor do not depend on it."""
         changed = {fid for fid in self.smaller if level.get(fid, 0) != self.level.get(fid, 0)}
         self.level = {fid: level[fid] for fid in self.smaller if level.get(fid)}
@@ -439,8 +468,8 @@ class Problem:
         if self.options.points:
             return self.points[fid][0]
         if fid not in self.side_anchors:
-            box, plain = self.whole_as_given(fid).box, self.anchor(fid)
-            members = [o for o in self.original[fid].outlines if o.box]
+            box, plain = self.whole_as_given(fid).box, anchor_of(self.given[fid])
+            members = [o for o in self.as_read[fid].outlines if o.box]
             lines = [e for key in self.sides for e in self.things[key].edges_near(box, 4 * (box[2] - box[0] + box[3] - box[1]))]
             self.side_anchors[fid] = side_anchor(members, lines, plain, self.lattice.unit, self.tolerance) or plain
         return self.side_anchors[fid]
@@ -506,9 +535,7 @@ class Problem:
     def anchor(self, fid):
         """The anchor, in doubles, of the set that the rings enclose before its corners are rounded."""
         if fid not in self.anchors:
-            members = [[(ring[k - 1], p) for ring in members_of(rings) for k, p in enumerate(ring)]
-                       for rings in self.given[fid]]
-            self.anchors[fid] = anchor(members, 1)
+            self.anchors[fid] = anchor_of(self.larger.get(fid, self.given[fid]))
         return self.anchors[fid]
 
     def ways_inside(self, a, b):
@@ -530,6 +557,10 @@ class Problem:
         for x, y in self.ways_inside(a, b):
             out = x * x + y * y > square if square is not None else reach is not None and max(x, y) > reach
             demand(out, a, "and", b, "may come to lie in each other")
+
+
+def anchor_of(polygons):
+    return anchor([[(ring[k - 1], p) for ring in members_of(rings) for k, p in enumerate(ring)] for rings in polygons], 1)
 
 
 def are_joined(edges, p, q):

@@ -52,7 +52,7 @@ class Result:
 
     def check_moves(self):
         problem = self.problem
-        for fid in problem.smaller:
+        for fid in {*problem.smaller, *problem.larger}:
             if not problem.is_hidden(fid):
                 self.check_place(fid)
         for fid in self.moved():
@@ -71,17 +71,17 @@ class Result:
             now = sorted(line[0] for line in self.main[fid][2])
             demand(now == sorted((x + dx, y + dy) for x, y in self.problem.points[fid]), "the result has", fid, "elsewhere")
             return
-        if fid in self.problem.arcs:
+        if fid in self.problem.arcs and fid not in self.problem.larger and fid not in self.problem.level:
             arcs = [[(x + dx, y + dy) for x, y in arc] for arc in self.problem.arcs[fid]]
             demand(arcs == self.arcs.get(fid), "the result has an arc of", fid, "elsewhere")
             return
         given, now = self.problem.given[fid], self.main[fid][1]
-        if fid in self.problem.level:
-            given = self.problem.taken[fid]
+        if fid in self.problem.level or fid in self.problem.larger:
+            given = self.problem.taken[fid] if fid in self.problem.level else self.problem.larger[fid]
             moved = [[[(x + dx, y + dy) for x, y in ring] for ring in polygon] for polygon in given]
             demand(in_order(moved) == in_order(now), "the result has", fid, "elsewhere, or with another shape")
             return
-        if any(a is not b for a, b in zip(given, self.problem.standing[fid])):
+        if self.problem.is_repaired(fid):
             return
         moved = [[[(x + dx, y + dy) for x, y in ring] for ring in polygon] for polygon in given]
         demand(moved == now, "the result has", fid, "elsewhere, or with another shape")

@@ -32,9 +32,9 @@ class Rows:
         self.number = {fids: k for k, fids in enumerate(self.bodies)}
         gap = problem.options.gap
         self.scale = math.frexp(gap)[1] if gap else 0  # coordinates are divided by this power of two
-        corners = [p for fid in present for polygon in problem.standing[fid] for ring in polygon for p in ring]
+        corners = [p for fid in present for polygon in problem.polygons_at_home(fid) for ring in polygon for p in ring]
         self.origin = tuple(Fraction(min((p[c] for p in corners), default=0.0)) for c in (0, 1))
-        self.house = {fid: rule.House([[[self.seen(p) for p in ring] for ring in polygon] for polygon in problem.standing[fid]])
+        self.house = {fid: rule.House([[[self.seen(p) for p in ring] for ring in polygon] for polygon in problem.polygons_at_home(fid)])
                       for fid in present}
         self.gap = math.ldexp(gap, -self.scale)
         things = [t for key, t in problem.things.items() if problem.is_barrier(key)]
@@ -147,7 +147,7 @@ class Rows:
         demand(any(max(abs(v - Fraction(w)) for v, w in zip(along, axis)) <= alike for axis, alike in self.directions(a, b)) and
                abs(along[0] ** 2 + along[1] ** 2 - 1) <= ALIKE, "that is not the direction of the row:", a, b)
         sides = [[(Fraction(p[0]) - self.origin[0]) * along[0] + (Fraction(p[1]) - self.origin[1]) * along[1]
-                  for fid in self.problem.blocks.block(k) for polygon in self.problem.standing[fid] for ring in polygon for p in ring]
+                  for fid in self.problem.blocks.block(k) for polygon in self.problem.polygons_at_home(fid) for ring in polygon for p in ring]
                  for k in (a, b)]
         apart, size = min(sides[1]) - max(sides[0]), max(map(max, sides)) - min(map(min, sides))
         demand(any(abs(Fraction(line["apart"]) - v) <= ALIKE * size for v in self.separations(line, apart)),

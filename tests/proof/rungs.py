@@ -13,7 +13,7 @@ from fractions import Fraction
 from exact import plane
 from form import demand
 from problem import root_above
-from sides import HAIR, POINT, Sides, corners_of, cross, dot, is_near, is_on_line, middle_of, near, vector
+from sides import HAIR, POINT, Sides, corners_of, cross, dot, follow_each_other, is_near, is_on_line, middle_of, near, vector
 
 FACTORS = 0.8, 0.6
 
@@ -103,8 +103,7 @@ class Rungs:
         def place(at):
             return tuple(about[c] + factor * (at[c] - about[c]) for c in (0, 1))
         image = [(place(a), place(b)) for a, b in p.edges]
-        demand(len(p.rings) == len(q.rings) and all(is_near(at, image, hair) for a, b in q.edges for at in (a, middle_of(a, b))) and
-               all(is_near(a, q.edges, hair) for a, _ in image), "a smaller shape of", fid, "is not the one as given, scaled by", float(factor))
+        demand(len(p.rings) == len(q.rings) and follow_each_other(image, q.edges, hair), "a smaller shape of", fid, "is not the one as given, scaled by", float(factor))
 
     def demand_square(self, fid, shape, side):
         """All four sides have the length, and adjacent ones are at right angles; two run along the longest edge."""

@@ -119,6 +119,11 @@ def divisions(e, g):
     return [Fraction(cross(w, v)) / turn]
 
 
+def follow_each_other(these, those, most):
+    """Is each corner of the one on the other, and each middle of an edge of the second on the first?"""
+    return (all(is_near(p, these, most) for a, b in those for p in (a, middle_of(a, b))) and all(is_near(a, those, most) for a, _ in these))
+
+
 def corners_of(outline):
     return [p for ring in outline.rings for p in ring]
 
