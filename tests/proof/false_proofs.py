@@ -111,8 +111,9 @@ def all_cases():
     import false_lattices
     import false_prices
     import false_rows
+    import false_rungs
     import false_verdicts
-    return [case for module in (false_bounds, false_enlargings, false_hidings, false_prices, false_rows, false_verdicts, false_lattices) for case in module.CASES]
+    return [case for module in (false_bounds, false_enlargings, false_hidings, false_prices, false_rows, false_rungs, false_verdicts, false_lattices) for case in module.CASES]
 
 
 def prepared(directory, names=()):
