@@ -3,7 +3,8 @@
  *
  *     each edge of a member is divided where edges of other members begin to run along it, or cross it
  *     a part whose middle lies on another member's wall, or inside of another member, is an inner wall
- *     the other parts are sides; each is linked to the side that begins where it ends
+ *     the other parts are sides, unless they are shorter than rounding, without a direction of their own
+ *     each side is linked to the one that begins where it ends
  *     linked sides in one line become one side
  *
  * All of this is in doubles. It decides which shapes are offered and never whether these are valid, which is tested
@@ -236,6 +237,16 @@ static bool add_parts(finder *f, const edge *e, sunder_i_block_outline *out)
     return true;
 }
 
+static void drop_short_sides(sunder_i_block_outline *out)
+{
+    uint32_t n = 0;
+    for (uint32_t k = 0; k < out->n; k++) {
+        const sunder_i_block_side *side = &out->side[k];
+        if (hypot(side->to[0] - side->from[0], side->to[1] - side->from[1]) > out->margin) out->side[n++] = *side;
+    }
+    out->n = n;
+}
+
 /* ---- Links ------------------------------------------------------------------------------------------------------- */
 
 /* Links each side to the one that begins nearest to its end, within the tolerance; the first of several. */
@@ -350,6 +361,7 @@ static bool find_among_members(finder *f, sunder_i_block_outline *out, sunder_er
             if (!add_parts(f, &e, out)) return false;
         }
     }
+    drop_short_sides(out);
     return link_sides(f, out, err, status) && join_straight(out);
 }
 

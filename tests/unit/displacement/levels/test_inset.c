@@ -1,4 +1,5 @@
 /* Blocks with their outlines moved in: named cases with areas known by hand. */
+#include "random.h"
 #include "simple_polygon.h"
 #include "sunder_hiding.h"
 
@@ -154,9 +155,48 @@ static void check_trimmed_neighbour(void **state)
     sunder_shape_free(house[1]);
 }
 
+static double shortest_edge(const sunder_shape *shape)
+{
+    double least = INFINITY;
+    size_t n;
+    const double *xy = sunder_shape_ring(shape, 0, 0, &n);
+    for (size_t k = 0, before = n - 1; k < n; before = k++)
+        least = fmin(least, hypot(xy[2 * k] - xy[2 * before], xy[2 * k + 1] - xy[2 * before + 1]));
+    return least;
+}
+
+/* Two houses whose fronts are in one line, with a wall between them whose ends differ by rounding: one house may end
+ * beside the other one, by less than rounding. That is no side of the block, and leaves no spike between strips. */
+static void check_wall_off_by_rounding(void **state)
+{
+    (void)state;
+    static const double local[2][8] = {{0, 0, 15, 0, 11, 9, 0, 9}, {15, 0, 30, 0, 30, 9, 11, 9}};
+    const double length = 1.25;
+    for (size_t i = 0; i < test_count(300); i++) {
+        rng r = rng_start(test_seed(), i);
+        const double a = 6.3 * rng_unit(&r), x = 545480 + rng_unit(&r), y = 5361868 + rng_unit(&r);
+        sunder_shape *house[2], *left[2];
+        for (int h = 0; h < 2; h++) {
+            double xy[8];
+            for (int k = 0; k < 4; k++) {
+                const double *p = local[h] + 2 * k, off = ldexp((double)rng_int(&r, -2, 2), -30);
+                xy[2 * k] = x + cos(a) * p[0] - sin(a) * p[1] + off;
+                xy[2 * k + 1] = y + sin(a) * p[0] + cos(a) * p[1] - off;
+            }
+            house[h] = simple_polygon(xy, 4);
+        }
+        inset(house, 2, 0.05, &(sunder_inset){&length, 1, 0}, left);
+        for (int h = 0; h < 2; h++)
+            if (!left[h] || shortest_edge(left[h]) < 0.1) fail_msg("house %d of case %zu has a spike", h, i);
+        free_all(left, 2);
+        free_all(house, 2);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(check_single_polygons), cmocka_unit_test(check_blocks),
-                                       cmocka_unit_test(check_trimmed_neighbour), cmocka_unit_test(check_conditions)};
+                                       cmocka_unit_test(check_trimmed_neighbour), cmocka_unit_test(check_conditions),
+                                       cmocka_unit_test(check_wall_off_by_rounding)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
