@@ -120,10 +120,8 @@ class Near:
             return
         if any(cross(e, d) for e in p.edges for d in q.edges):
             self.distance = 0
-        elif self.distance <= MARGIN:
-            if self.exact_square() != 0:
-                raise Undecided
-            self.distance = 0
+        elif self.distance <= MARGIN:  # if it is not 0, is_nearer() finds it undecided among others as near
+            self.distance = 0 if self.exact_square() == 0 else self.distance
         elif any(holds(a, rings[0][0]) for a, b in ((p, q), (q, p)) for rings in b.parts):
             self.distance = 0
 
