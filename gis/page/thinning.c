@@ -1,10 +1,16 @@
 /* thinning.c: see thinning.h.
  *
  * The page must load quickly, hence the size of its map is limited. Features are drawn completely in the order of
- * their importance, until the limit is reached: those that are in a conflict or block one, those that moved, the
- * longest moves first, those near any of these or near others that changed or are hidden, and the rest. All other
- * features are simplified with a tolerance, and those not larger than it are omitted; the tolerance is doubled until
- * the map is small enough. The choice depends on the layer only. */
+ * their importance, until the limit is reached:
+ *
+ *     those that are in a conflict or block one
+ *     those that moved, the longest moves first
+ *     those near features of the first two kinds, or near features with another shape or hidden ones
+ *     the rest
+ *
+ * All other features are simplified with a tolerance, and those not larger than it are omitted; the tolerance is
+ * doubled until the map is small enough. The choice depends on the layer only.
+ */
 #include "page/thinning.h"
 
 #include "base/interrupt.h"

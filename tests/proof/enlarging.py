@@ -102,7 +102,7 @@ class Enlarging:
         demand(not wrong or (len(parts) > 1 and larger and self.grew_as_one(parts, now)), *wrong or ())
 
     def wrong_parts(self, parts, now, numbers):
-        """What is wrong with parts of which each grows about its own middle; numbers: see pairs_of(). None: nothing."""
+        """What is wrong if each part grows about its own middle; numbers: see pairs_of(). None: nothing."""
         pairs = [pairs_of(part, now, numbers) for part in parts]
         for part, own in zip(parts, pairs):
             wrong = self.wrong_part(part, own)
@@ -238,7 +238,7 @@ def zip_all(these, those):
 
 
 def pairs_of(part, now, numbers=None):
-    """(FID, what it was, what it is): outlines of each polygon, of which features have these numbers; without numbers of all of a feature."""
+    """(FID, outlines as read, outlines now) of each polygon; numbers: how many polygons each feature has. Without them: of each feature."""
     if numbers is None:
         return [(fid, all_of(o for f, _, o in part.items if f == fid), all_of(now[fid].outlines)) for fid in part.fids()]
     for fid, _, _ in part.items:

@@ -6,7 +6,7 @@ from false_proofs import Case
 
 CASES = []
 OPTIONS = "--gap 1 --max-shift 3 --contained separate --inset 2 --symbol-size 4"
-INSET, SCALED, SQUARE = 0, 1, 3  # the rungs of these options
+INSET, SCALED, SQUARE = 0, 1, 3  # numbers of rungs, with OPTIONS
 
 
 def lines_of(shapes):

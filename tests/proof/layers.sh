@@ -145,7 +145,7 @@ make_town() {
 
 # Features below a least size of 10: a terrace that becomes deeper; sheds, one of them beside a line (which it would cover when it is larger);
 # one turned, with two walls of a nearly common length; one of three wings; one of two parts that would meet; one of two that stay
-# apart, of which one is large enough; and one that is large enough.
+# apart, a small and a large one; and one that is large enough.
 make_sheds() {
     {
         echo "WKT,class"

@@ -320,8 +320,8 @@ class Problem:
         return any(a is not b for a, b in zip(self.given[fid], self.standing[fid]))
 
     def set_levels(self, level):
-        """Gives features the shapes of these levels, and all others those of the level 0. Blocks, anchors, rows, weights and what holds an
-        anchor do not depend on it."""
+        """Gives features the shapes of their levels, which are 0 unless `level` says otherwise. Blocks, anchors, rows, weights, and the answer
+        to what holds an anchor, stay."""
         changed = {fid for fid in self.smaller if level.get(fid, 0) != self.level.get(fid, 0)}
         self.level = {fid: level[fid] for fid in self.smaller if level.get(fid)}
         for fid in changed:

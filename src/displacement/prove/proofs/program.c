@@ -161,7 +161,8 @@ static bool balance_three_exactly(sunder_i_claim *p, sunder_i_claim *q, sunder_i
     return positive == 0 || positive == 3;
 }
 
-/* The vectors force * n of these two or three claims add up to zero. Do the claims contradict each other, exactly? */
+/* Do two or three claims, with vectors force * n that add up to zero, contradict each other, exactly? r: NULL if there
+ * are two. */
 static bool win(const sunder_i_claim *p, const sunder_i_claim *q, const sunder_i_claim *r)
 {
     double won = 0;
