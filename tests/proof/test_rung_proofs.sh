@@ -37,7 +37,7 @@ proved town.gpkg "${rules[@]}" --trim --crossed trim --inset 0.5,1 --symbol-size
 proved town.gpkg "${rules[@]}" --trim --inset 0.5,1 --symbol-size 4 --rigid-where 'class = 2'
 proved town.gpkg "${rules[@]:0:6}" --inset 0.5,1 --min-size 3
 
-# Terraces and yards of which some houses are trimmed: the outline that is moved in is that of the trimmed ones.
+# Terraces and yards with some trimmed houses: the outline of the trimmed houses is moved in.
 /usr/bin/python3 -c 'from osgeo import ogr; import shapely' 2>/dev/null || { echo "without GDAL's Python module or shapely: no terraces"; finish; exit 0; }
 /usr/bin/python3 "$SUNDER_SOURCE/tests/cli/corner_worlds.py" "$SUNDER" 5 4 || fail "the terraces"
 ogr2ogr -q terraces.gpkg inset_houses.gpkg inset_houses -nln buildings
