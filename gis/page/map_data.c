@@ -13,8 +13,8 @@
  *   anchor         x, y of each feature whose move is not 0, as the difference from the previous one
  *   shape          the rings of each feature: the number of vertices, then each vertex as the difference from the
  *                  previous one, also across features; 0 ends a feature
- *   after          of each feature the rings of its shape in the result, in the same form, if that is another one;
- *                  empty if it is none's
+ *   after          the rings of each feature that became larger or smaller, as the result has them, in the form of
+ *                  shape; the others have none, and the column is empty if all have none
  *   barrier        of each barrier its width, its lines in the form of shape, and its rings in the same form
  *   conflict       of each listed conflict: 1 if it is proved, else 0; then the two ends of its link, each as the
  *                  difference from the previous point */

@@ -9,8 +9,7 @@
  *     the rest
  *
  * All other features are simplified with a tolerance, and those not larger than it are omitted; the tolerance is
- * doubled until the map is small enough. The choice depends on the layer only.
- */
+ * doubled until the map is small enough. The choice depends on the layer only. */
 #include "page/thinning.h"
 
 #include "base/interrupt.h"

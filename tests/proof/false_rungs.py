@@ -33,7 +33,7 @@ TRUE = {1: (SQUARE, box(8, 3, 12, 7))}
 case("square-with-a-hole", "is no square", HOUSE, TRUE, {1: (SQUARE, {"polygons": [[[(8, 3), (12, 3), (12, 7), (8, 7)], [(9, 4), (9, 6), (11, 6), (11, 4)]]]})})
 case("square-that-is-turned", "does not stand along its longest edge", HOUSE, TRUE,
      {1: (SQUARE, ring((8.4, 2.8), (11.6, 5.2), (9.2, 8.4), (6, 6)))})
-case("square-of-another-side", "is no square of that side", HOUSE, TRUE, {1: (SQUARE, box(7, 2, 13, 8))})
+case("square-of-another-side", "is no square with the side of its rung", HOUSE, TRUE, {1: (SQUARE, box(7, 2, 13, 8))})
 case("scaled-in-a-block", ", which is in a block", TERRACE, {1: (SQUARE, box(8, 3, 12, 7))}, {1: (SCALED, box(2, 1, 18, 9))})
 case("scaled-by-another-factor", "is not the one as given, scaled by", HOUSE, {1: (SCALED, box(2, 1, 18, 9))}, {1: (SCALED, box(3, 1.5, 17, 8.5))})
 

@@ -112,7 +112,7 @@ class Rungs:
         steps = [vector(rings[0][k - 1], rings[0][k]) for k in range(4)]
         off = 4 * hair * (side + hair)
         demand(all(abs(dot(u, u) - side * side) <= off for u in steps) and all(abs(dot(steps[k - 1], steps[k])) <= off for k in range(4)),
-               "a symbol of", fid, "is no square of that side")
+               "a symbol of", fid, "is no square with the side of its rung")
         edges = [vector(a, b) for a, b in self.problem.original[fid].whole().edges]
         most = max(dot(u, u) for u in edges)
         longest = [u for u in edges if dot(u, u) * (1 + Fraction(1, 1 << 30)) >= most]

@@ -1,20 +1,14 @@
 # shellcheck shell=bash disable=SC1091
 # --proof with --hide: the checker proves each clause and the bound of what is hidden again, for houses between walls, on
 # a road, in a block and in rows; and it refuses every false statement about them (hide_mutations.py).
-. "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
-command -v python3 >/dev/null || { echo "skipped: no python3"; exit 77; }
-export PYTHONDONTWRITEBYTECODE=1
-here=$SUNDER_SOURCE/tests/proof
-. "$here/layers.sh"
+. "$SUNDER_SOURCE/tests/proof/room_runs.sh" || exit 1
 
 # proved FILE WORDS OPTIONS...: the checker accepts the proof of this run, and says these words
 proved() {
     local source=$1 words=$2
     shift 2
-    "$SUNDER" separate "$source" o.gpkg --overwrite -q -l buildings --layers main,displacement,conflicts --proof p.jsonl "$@" 2>err
-    case $? in 0 | 3) ;; *) fail "$source: status $?" ;; esac
-    python3 "$here/check_proof.py" p.jsonl "$source" --layer buildings --result o.gpkg "$@" >said 2>&1 && grep -qF "$words" said ||
-        fail "$source $*: $(tail -1 said)"
+    checked "$source" "$@"
+    grep -qF "$words" said || fail "$source $*: $(tail -1 said)"
     grep -o 'hidden [^;]*' said
 }
 
@@ -22,8 +16,7 @@ make_hidden
 kept=(--gap 0.5 --max-shift 3 --no-blocks --block-field k --contained separate --hide --barrier walls.gpkg)
 hidden=("${kept[@]}" --crossed hide)
 proved hidden.gpkg 'hidden 5, 6 clauses with proofs' "${hidden[@]}" --rows no --ease no --hide-weight area --hierarchy-field class
-python3 "$here/mutations.py" p.jsonl hidden.gpkg --layer buildings --result o.gpkg "${hidden[@]}" --rows no --ease no --hide-weight area \
-    --hierarchy-field class >said 2>kinds || fail "$(cat said)"
+untrue hidden.gpkg clause "${hidden[@]}" --rows no --ease no --hide-weight area --hierarchy-field class
 cut -c 1-70 kinds
 [ "$(cut -d ' ' -f 1 kinds)" = 22 ] || fail "kinds of untruth are missing: $(cat kinds)"
 proved hidden.gpkg 'hidden 5' "${hidden[@]}" --hide-weight 1

@@ -1,38 +1,22 @@
 # shellcheck shell=bash disable=SC1091
 # --proof with --inset and --symbol-size: the checker verifies that each smaller shape is what its rung allows (rungs.py)
 # and each clause with the shapes of its levels; and it refuses false statements about them (hide_mutations.py).
-. "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
-command -v python3 >/dev/null || { echo "skipped: no python3"; exit 77; }
-export PYTHONDONTWRITEBYTECODE=1
-here=$SUNDER_SOURCE/tests/proof
-. "$here/layers.sh"
+. "$SUNDER_SOURCE/tests/proof/room_runs.sh" || exit 1
 
 # proved FILE OPTIONS...: the checker accepts the proof of this run, which has smaller shapes and clauses
 proved() {
-    local source=$1
-    shift
-    "$SUNDER" separate "$source" o.gpkg --overwrite -q -l buildings --layers main,displacement,conflicts --proof p.jsonl "$@" 2>err
-    case $? in 0 | 3) ;; *) fail "$source: status $?: $(cat err)" ;; esac
-    python3 "$here/check_proof.py" p.jsonl "$source" --layer buildings --result o.gpkg "$@" >said 2>&1 &&
-        grep -q '[1-9][0-9]* of [0-9]* smaller shapes, [1-9][0-9]* clauses' said || fail "$source $*: $(tail -1 said)"
+    checked "$@"
+    grep -q '[1-9][0-9]* of [0-9]* smaller shapes, [1-9][0-9]* clauses' said || fail "$*: $(tail -1 said)"
     grep -o 'hidden [^;]*' said
-}
-
-# untrue KINDS OPTIONS...: changes the last run's proof; the checker refuses each change, and the KINDS are among them
-untrue() {
-    local kind kinds=$1
-    shift
-    python3 "$here/mutations.py" p.jsonl town.gpkg --layer buildings --result o.gpkg "$@" >said 2>kinds || fail "$(cat said)"
-    while read -r kind; do grep -qF "$kind" kinds || fail "no $kind: $(cat kinds)"; done <<<"${kinds//;/$'\n'}"
 }
 
 make_town
 rules=(--gap 0.5 --max-shift 0.5 --barrier roads.gpkg,width-field=w --hide --hide-weight 1)
 proved town.gpkg "${rules[@]}" --inset 0.5,1,2
-untrue 'larger shape;shape that keeps too little;shape of no rung;shape that is too large for its rung;shape with a tip cut;wall that is cut at two places' \
+untrue town.gpkg 'larger shape;shape that keeps too little;shape of no rung;shape that is too large for its rung;shape with a tip cut;wall that is cut at two places' \
     "${rules[@]}" --inset 0.5,1,2
 proved town.gpkg "${rules[@]}" --symbol-size 4
-untrue 'shape of the rung before;shape of no rung;shape that is too large for its rung;shape with a tip cut' "${rules[@]}" --symbol-size 4
+untrue town.gpkg 'shape of the rung before;shape of no rung;shape that is too large for its rung;shape with a tip cut' "${rules[@]}" --symbol-size 4
 proved town.gpkg "${rules[@]}" --trim --crossed trim --inset 0.5,1 --symbol-size 4 --hierarchy-field class --rows no --ease no
 proved town.gpkg "${rules[@]}" --trim --inset 0.5,1 --symbol-size 4 --rigid-where 'class = 2'
 proved town.gpkg "${rules[@]:0:6}" --inset 0.5,1 --min-size 3

@@ -119,7 +119,7 @@ function readLayer(data) {
   return layer;
 }
 
-// Became a feature larger or smaller? Half way it has the shape that the result gives it.
+// Did the feature become larger or smaller? From half way on it is drawn with its shape in the result.
 const isChanged = (layer, f) => layer.after.ringsOf[f + 1] > layer.after.ringsOf[f];
 const shapesAt = (layer, f, part) => part >= 0.5 && isChanged(layer, f) ? layer.after : layer.shapes;
 
