@@ -161,6 +161,16 @@ SUNDER_EXPERIMENTAL sunder_status sunder_layer_set_side_anchors(sunder_layer *la
  * the number of one of these features. */
 SUNDER_EXPERIMENTAL sunder_status sunder_layer_set_rows(sunder_layer *layer, const int64_t *row, sunder_error *err);
 
+/* Gives features preferred places: the cost of a feature is weight * |t - p|^2, with its move t and its preferred move
+ * p, and springs of rows cost nothing if both neighbours make their preferred moves. All else is relative to where the
+ * features stand in the layer: limits, sides, jumps, what may not get worse, and the moves that are reported. A block
+ * prefers the weighted mean of its members' moves; what does not move prefers nothing. A preferred move is rounded to
+ * one for which the moved vertices are doubles, if there is one. options.keep_worlds and keep_trees may not be set.
+ * move    Two numbers for each feature, which are copied. NULL: all prefer to stay.
+ * Fails   SUNDER_EINVALID for a number that is not finite, SUNDER_ENOMEM */
+SUNDER_EXPERIMENTAL sunder_status sunder_layer_set_preferred(sunder_layer *layer, const double *move,
+                                                             sunder_error *err);
+
 typedef enum sunder_feature_status {
     SUNDER_FEATURE_UNMOVED,
     SUNDER_FEATURE_MOVED,
@@ -272,9 +282,10 @@ typedef struct sunder_layer_summary {
     size_t rounded;                 /* moved features with a coordinate that had to be rounded to a double */
     double total, mean, max;        /* lengths of moves; the mean is over all features that moved, blocked or not */
     size_t max_feature;             /* the first feature with the longest move; SIZE_MAX if nothing moved */
-    /* cost is the sum of weight * length^2 over the moves, of the springs of rows, and of the prices of what pairs lack
-     * (cost_shortfall). lower_bound is proved: no placement costs less that solves every pair that is not listed,
-     * leaves no listed pair worse than at the start, and leaves no pair in overlap that is listed as too close. */
+    /* cost is the sum of weight * length^2 over the moves (sunder_layer_set_preferred()), of the springs of rows, and
+     * of the prices of what pairs lack (cost_shortfall). lower_bound is proved: no placement costs less that solves
+     * every pair that is not listed, leaves no listed pair worse than at the start, and leaves no pair in overlap that
+     * is listed as too close. */
     double cost, lower_bound;
     /* The bound that the pairs of sunder_report_bound_pairs() prove by their least translations alone. It holds if no
      * feature of these pairs comes to lie in the other. It is not part of lower_bound, which trees prove: they prove a

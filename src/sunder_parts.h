@@ -100,7 +100,7 @@ SUNDER_EXPERIMENTAL bool sunder_report_rounded(const sunder_report *report, size
  * Let v be the move of the second block minus that of the first one. If `apart` > 0, the two have to keep the rule of
  * rows: v.along >= gap - apart if some members of the two are in conflict at the start and none remain so, otherwise
  * v.along >= min(0, gap - apart). With K and K' of sunder_layer_options.row_stiffness, and m = (-along[1], along[0]),
- * they have springs that cost weight (K (v.m)^2 + K' (v.along)^2). */
+ * they have springs that cost weight (K (v.m)^2 + K' (v.along)^2), with v - rest in place of v. */
 typedef struct sunder_row_pair {
     size_t feature[2];
     size_t block[2];   /* the first feature of the block of each */
@@ -112,6 +112,7 @@ typedef struct sunder_row_pair {
                         * left; the middles are those of the blocks' extents in these directions */
     double weight;     /* the lesser of the weights of the two blocks */
     double move[2][2]; /* the moves of the two */
+    double rest[2];    /* the relative move at which springs are at rest: sunder_layer_set_preferred() */
 } sunder_row_pair;
 
 /* Returns the pairs of neighbours in rows, in the order of their features, and sets *n to their number; there are none

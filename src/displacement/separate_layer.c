@@ -14,6 +14,7 @@
 #include "displacement/solve_layer.h"
 
 #include "base/clock.h"
+#include "base/error.h"
 #include "base/sized_struct.h"
 #include "base/watch.h"
 
@@ -110,6 +111,8 @@ static sunder_status find_moves(sunder_i_solver *s, const sunder_layer *layer, c
     if (!status) status = sunder_i_solver_find_infeasible(s, NULL, err);
     if (!status) status = prepare_search(s, err);
     if (!status && rows) status = sunder_i_rows_make_rule(&s->rows, &s->placement, &s->start, &s->model, err);
+    if (!status && !sunder_i_model_prefer(&s->model)) status = sunder_i_failure_cause(err);
+    if (!status) sunder_i_model_rest_springs(&s->model);
     if (!status) status = sunder_i_solver_begin_holding(s, err);
     if (!status && !sunder_i_progress(&s->model.rules, SUNDER_I_PREPARED)) status = sunder_i_failure_cause(err);
     if (!status) status = sunder_i_layer_solve(s, err);
@@ -369,6 +372,8 @@ static sunder_status separate_layer(sunder_i_solver *s, const sunder_layer *laye
     const bool may_lower = layer->hiding || layer->level_end;
     sunder_i_hiding hiding = {0};
     sunder_layer lowered;
+    if (layer->preferred && (options->keep_worlds || options->keep_trees))
+        return sunder_i_fail(err, SUNDER_EARG, "worlds and trees cannot be kept if features have preferred places");
     sunder_status status = may_lower ? lay_out_visible(s, layer, options, &hiding, &lowered, report, err)
                                      : find_moves(s, layer, options, NULL, report, err);
     if (!status) status = conclude_report(s, options, *report, began, err);

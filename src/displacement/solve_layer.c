@@ -44,6 +44,8 @@ static bool has_let_go(sunder_i_solver *s) { return s->any_let_go; }
 
 static bool has_price(sunder_i_solver *s) { return s->model.rules.ease > 0; }
 
+static bool has_preferred(sunder_i_solver *s) { return s->model.preferred != NULL; }
+
 static bool has_no_effort(sunder_i_solver *s) { return !(s->model.rules.effort > 0); }
 
 /* ---- Stages of one search ---------------------------------------------------------------------------------------- */
@@ -161,6 +163,7 @@ static sunder_status prove_all(sunder_i_solver *s, sunder_error *err)
 /* No pass has more than one round. "let go" allows held bodies to move that are still in conflict, or whose moves may
  * be of use to a neighbour. Their clusters begin again; "take better" keeps the better of the two layouts. */
 static const sunder_i_layer_stage passes[] = {
+    {"start preferred", has_preferred, sunder_i_solver_start_preferred, 1, 0, 0},
     {"lift limits", NULL, sunder_i_solver_lift_limits, 1, 0, 0},
     {"move inside", has_no_limits, sunder_i_solver_move_inside, 1, 0, 0},
     {"seek", NULL, seek_first, 1, 0, 0},

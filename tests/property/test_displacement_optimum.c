@@ -69,8 +69,10 @@ static void check_verdict(const hamlet *t, const sunder_conflict *c, size_t n, c
     if (own->inside_block) return;
     const bool alone = pose_verdict(t, c, n, own, &m), proved = own->reason != SUNDER_REASON_UNRESOLVED;
     double most = 1;
-    for (size_t k = 0; k < m.bodies; k++)
-        most += m.body[k].weight * (isinf(m.body[k].limit) ? 1e6 : m.body[k].limit * m.body[k].limit);
+    for (size_t k = 0; k < m.bodies; k++) {
+        const double off = hypot(m.preferred[2 * k], m.preferred[2 * k + 1]), far = fmin(1e3, m.body[k].limit) + off;
+        most += m.body[k].weight * far * far;
+    }
     const optimum_answer answer = optimum_find(&m, most, 0.5, 20000);
     const bool solvable = answer.high < INFINITY;
     sum->proved += proved;
@@ -194,6 +196,20 @@ static void test_all_rules(void **state)
     ask(60, 1, 4, HAMLET_SIDES | HAMLET_BARRIERS_TOO | HAMLET_NO_JUMPS, 5);
 }
 
+/* ---- Preferred places */
+
+static void test_preferred(void **state)
+{
+    (void)state;
+    ask(60, 1, 3, HAMLET_PREFERRED, 6);
+}
+
+static void test_preferred_with_rules(void **state)
+{
+    (void)state;
+    ask(60, 1, 4, HAMLET_PREFERRED | HAMLET_SIDES | HAMLET_BARRIERS_TOO | HAMLET_NO_JUMPS, 7);
+}
+
 /* ---- The oracle itself */
 
 static double known(const double *p, size_t np, const double *q, size_t nq, double gap, double limit_p)
@@ -272,6 +288,8 @@ int main(void)
         cmocka_unit_test(test_jumps),
         cmocka_unit_test(test_sides),
         cmocka_unit_test(test_all_rules),
+        cmocka_unit_test(test_preferred),
+        cmocka_unit_test(test_preferred_with_rules),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

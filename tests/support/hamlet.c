@@ -120,6 +120,21 @@ static bool may_cut(const hamlet *t, const hamlet_barrier *b)
     return false;
 }
 
+/* Moves on a grid, and any others; some features prefer to stay, or to go along with the one before. */
+static void choose_preferred(rng *r, hamlet *t, double unit)
+{
+    t->preferred = true;
+    for (size_t k = 0; k < t->n; k++) {
+        house *h = &t->house[k];
+        const int64_t kind = rng_int(r, 0, 5);
+        if (kind == 0) continue;
+        for (int c = 0; c < 2; c++) {
+            const double far = kind == 1 ? 0.3 : 1, steps = (double)rng_int(r, -24, 24);
+            h->preferred[c] = kind == 2 && k ? t->house[k - 1].preferred[c] : unit * far * steps / 4;
+        }
+    }
+}
+
 void hamlet_found(rng *r, hamlet *t, size_t n, int kinds)
 {
     const double unit = rng_once_in(r, 2) ? 1 : 0.125 * (double)rng_int(r, 1, 12);
@@ -136,6 +151,7 @@ void hamlet_found(rng *r, hamlet *t, size_t n, int kinds)
         h->fixed = fixed && rng_once_in(r, 3);
     }
     if (n > 2 && rng_once_in(r, 4)) t->house[0].block = t->house[n - 1].block = 7;
+    if (kinds & HAMLET_PREFERRED) choose_preferred(r, t, unit);
     if (!(kinds & (HAMLET_BARRIERS_TOO | HAMLET_SIDES))) return;
     t->barriers = (size_t)rng_int(r, 1, HAMLET_BARRIERS);
     for (size_t k = 0; k < t->barriers; k++) {
@@ -163,6 +179,7 @@ sunder_report *hamlet_separate(const hamlet *t, double effort)
     sunder_shape *shape[HAMLET_HOUSES + HAMLET_BARRIERS] = {NULL};
     sunder_feature feature[HAMLET_HOUSES];
     sunder_barrier barrier[HAMLET_BARRIERS];
+    double preferred[2 * HAMLET_HOUSES];
     sunder_layer_options options;
     sunder_layer *layer = NULL;
     sunder_report *report = NULL;
@@ -176,6 +193,7 @@ sunder_report *hamlet_separate(const hamlet *t, double effort)
     options.effort = effort;
     for (size_t k = 0; k < t->n; k++) {
         const house *h = &t->house[k];
+        memcpy(preferred + 2 * k, h->preferred, sizeof h->preferred);
         shape[k] = shape_of(h->xy, h->ring_end, h->rings);
         feature[k] = (sunder_feature){
             .shape = shape[k], .weight = h->weight, .max_shift = h->limit, .block = h->block, .fixed = h->fixed};
@@ -191,6 +209,7 @@ sunder_report *hamlet_separate(const hamlet *t, double effort)
         barrier[k].geometry.lines = 1;
     }
     if (sunder_layer_new(feature, t->n, &layer, &err) || sunder_layer_set_barriers(layer, barrier, t->barriers, &err) ||
+        sunder_layer_set_preferred(layer, t->preferred ? preferred : NULL, &err) ||
         sunder_layer_separate(layer, &options, &report, &err)) {
         fprintf(stderr, "hamlet: %s\n", err.message);
         abort();
@@ -227,6 +246,11 @@ static void start(posing *p, const hamlet *t, optimum_problem *m)
         sunder_shape *shape = shape_of(h->xy, h->ring_end, h->rings);
         sunder_shape_anchor(shape, p->anchor[k]);
         sunder_shape_free(shape);
+    }
+    for (size_t k = 0; k < t->n; k++) {
+        const optimum_body *body = &m->body[p->body_of[k]];
+        for (size_t c = 0; c < 2 && body->limit > 0; c++)
+            m->preferred[2 * p->body_of[k] + c] += t->house[k].weight / body->weight * t->house[k].preferred[c];
     }
     p->barriers = m->bodies;
     m->body[m->bodies++] = (optimum_body){1, 0};

@@ -23,7 +23,7 @@ typedef struct house {
     size_t parts;
     double xy[2 * HOUSE_CORNERS]; /* the outline, and that of a courtyard */
     size_t ring_end[2], rings;
-    double weight, limit;
+    double weight, limit, preferred[2];
     int64_t block;
     bool fixed;
 } house;
@@ -42,14 +42,16 @@ typedef struct hamlet {
     hamlet_barrier barrier[HAMLET_BARRIERS];
     size_t barriers;
     double gap;
-    bool jumps; /* are jumps allowed? */
+    bool jumps;     /* are jumps allowed? */
+    bool preferred; /* do features prefer other places than their own? */
 } hamlet;
 
 typedef enum hamlet_kind {
     HAMLET_PLAIN,
     HAMLET_BARRIERS_TOO = 1, /* barriers that may be crossed */
     HAMLET_NO_JUMPS = 2,
-    HAMLET_SIDES = 4 /* also barriers that may not be crossed; these meet no feature */
+    HAMLET_SIDES = 4,    /* also barriers that may not be crossed; these meet no feature */
+    HAMLET_PREFERRED = 8 /* features may prefer other places than their own */
 } hamlet_kind;
 
 /* Makes n features. kinds: the allowed kinds of features. */

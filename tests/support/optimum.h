@@ -1,8 +1,8 @@
 /* The least cost of separating a few bodies, by an independent branch and bound: for tests of the library's statements
  * about its own results. Shares no code with src/.
  *
- * A body moves by t, no farther than its limit; its cost is weight * |t|^2. A piece forbids a set of relative moves u =
- * t_b - t_a of two bodies. */
+ * A body moves by t, no farther than its limit; its cost is weight * |t - p|^2, with the move p that it prefers. A
+ * piece forbids a set of relative moves u = t_b - t_a of two bodies. */
 #ifndef SUNDER_TESTS_OPTIMUM_H
 #define SUNDER_TESTS_OPTIMUM_H
 
@@ -30,6 +30,7 @@ typedef struct optimum_piece {
 typedef struct optimum_problem {
     optimum_body body[OPTIMUM_BODIES];
     size_t bodies;
+    double preferred[2 * OPTIMUM_BODIES]; /* the move of each body that costs nothing; 0 for fixed ones */
     optimum_piece *piece;
     size_t pieces, room;
 } optimum_problem;

@@ -1,5 +1,6 @@
 /* The dual active-set method of Goldfarb and Idnani (1983) for a diagonal Hessian, in variables x = sqrt(w) t, in which
- * the Hessian is the identity. All in doubles: only the bound has to be certain, a value of the dual function
+ * the Hessian is the identity; if bodies prefer other moves than 0, t counts from these. All in doubles: only the bound
+ * has to be certain, a value of the dual function
  *
  *     D(l) = sum_c l_c h_c - sum_i |g_i|^2 / (4 w_i),   g_i = sum of +-l_c n_c over the rows of body i,
  *
@@ -31,6 +32,13 @@ static double dot(const double *a, const double *b)
 }
 
 static bool stands(const optimum_problem *m, size_t body) { return body == OPTIMUM_NOBODY || m->body[body].limit == 0; }
+
+static bool prefers(const optimum_problem *m)
+{
+    for (size_t k = 0; k < 2 * m->bodies; k++)
+        if (m->preferred[k] != 0) return true;
+    return false;
+}
 
 static void set_normals(active_set *s, const optimum_problem *m, const optimum_row *row, size_t n)
 {
@@ -157,10 +165,28 @@ static double certificate(const optimum_problem *m, const optimum_row *row, size
     return best;
 }
 
-optimum_verdict optimum_solve(const optimum_problem *m, const optimum_row *row, size_t n, double enough,
+/* The row for moves that count from the preferred ones; h is rounded down. */
+static optimum_row from_preferred(const optimum_problem *m, const optimum_row *row)
+{
+    optimum_row out = *row;
+    double size = fabs(row->h);
+    for (size_t k = 0; k < 2; k++)
+        for (int end = 0; end < 2; end++) {
+            const size_t body = end ? row->b : row->a;
+            const double part = body == OPTIMUM_NOBODY ? 0 : row->n[k] * m->preferred[2 * body + k];
+            out.h -= end ? part : -part;
+            size += fabs(part);
+        }
+    out.h -= 16 * UNIT * size;
+    return out;
+}
+
+optimum_verdict optimum_solve(const optimum_problem *m, const optimum_row *given, size_t n, double enough,
                               optimum_solution *s)
 {
     active_set a = {.n = 0};
+    optimum_row row[OPTIMUM_ROWS];
+    for (size_t c = 0; c < n; c++) row[c] = prefers(m) ? from_preferred(m, &given[c]) : given[c];
     set_normals(&a, m, row, n);
     *s = (optimum_solution){.cost = 0};
     for (size_t step = 0; step < 2000; step++) {
@@ -174,7 +200,8 @@ optimum_verdict optimum_solve(const optimum_problem *m, const optimum_row *row, 
         if (worst == n) {
             for (size_t i = 0; i < m->bodies; i++)
                 for (size_t k = 0; k < 2; k++)
-                    s->t[2 * i + k] = stands(m, i) ? 0 : a.x[2 * i + k] / sqrt(m->body[i].weight);
+                    s->t[2 * i + k] =
+                        stands(m, i) ? 0 : a.x[2 * i + k] / sqrt(m->body[i].weight) + m->preferred[2 * i + k];
             s->cost = dot(a.x, a.x);
             s->bound = fmax(0, dual_value(m, row, n, a.force, 2));
             return OPTIMUM_SOLVED;

@@ -1,4 +1,4 @@
-/* Least squares under linear constraints, for the nodes of optimum.c: min sum weight |t|^2, n.(t_b - t_a) >= h. */
+/* Least squares under linear constraints, for the nodes of optimum.c: min sum weight |t - p|^2, n.(t_b - t_a) >= h. */
 #ifndef SUNDER_TESTS_OPTIMUM_DUAL_H
 #define SUNDER_TESTS_OPTIMUM_DUAL_H
 
@@ -19,7 +19,7 @@ typedef struct optimum_solution {
 } optimum_solution;
 
 /* For an infeasible program the bound is at least `enough`; otherwise the result is OPTIMUM_STUCK. */
-optimum_verdict optimum_solve(const optimum_problem *m, const optimum_row *row, size_t n, double enough,
+optimum_verdict optimum_solve(const optimum_problem *m, const optimum_row *given, size_t n, double enough,
                               optimum_solution *s);
 
 #endif

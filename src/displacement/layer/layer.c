@@ -135,6 +135,21 @@ sunder_status sunder_layer_set_rows(sunder_layer *layer, const int64_t *row, sun
     return SUNDER_OK;
 }
 
+sunder_status sunder_layer_set_preferred(sunder_layer *layer, const double *move, sunder_error *err)
+{
+    void *copy;
+    bool any = false;
+    for (size_t k = 0; move && k < 2 * layer->n; k++) {
+        if (!isfinite(move[k]))
+            return sunder_i_fail(err, SUNDER_EINVALID, "feature %zu: its preferred move is not finite", k / 2);
+        any = any || move[k] != 0;
+    }
+    if (!copy_items(any ? move : NULL, 2 * layer->n, sizeof *move, &copy)) return sunder_i_failure_cause(err);
+    sunder_i_free(layer->preferred);
+    layer->preferred = copy;
+    return SUNDER_OK;
+}
+
 sunder_status sunder_layer_set_hiding(sunder_layer *layer, const sunder_hiding_cost *cost, sunder_error *err)
 {
     void *copy;
@@ -207,6 +222,6 @@ void sunder_layer_free(sunder_layer *layer)
 {
     if (!layer) return;
     sunder_i_free_all((void *)layer->shape, layer->demand, layer->demands, layer->barrier, layer->side_anchor,
-                      layer->row, layer->hiding, layer->level, layer->level_end, (void *)layer->at_level,
-                      (void *)layer->original, layer);
+                      layer->row, layer->preferred, layer->hiding, layer->level, layer->level_end,
+                      (void *)layer->at_level, (void *)layer->original, layer);
 }

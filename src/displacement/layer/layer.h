@@ -24,6 +24,7 @@ struct sunder_layer {
     double *side_anchor; /* [2 n] side anchors from the caller, not finite where the rule has to find one; NULL: none
                           * are given */
     int64_t *row;        /* [n] the row of each feature, -1 for none, as the caller gives them; NULL: none are given */
+    double *preferred;   /* [2 n] the moves that features prefer; NULL: all prefer to stay. Not all are 0 */
     sunder_hiding_cost *hiding;    /* [n] what it costs to hide each; NULL: none is hidden */
     sunder_crossed crossed;        /* what becomes of features that a barrier's line crosses */
     sunder_trimming least;         /* what a smaller shape keeps at least */

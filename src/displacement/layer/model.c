@@ -29,7 +29,8 @@ void sunder_i_model_free(sunder_i_model *model)
     sunder_i_free_all(model->interior_cover, model->inclusion, model->nested, model->wall, model->wall_corner,
                       model->crossed);
     sunder_i_relaxations_free(&model->relaxations);
-    sunder_i_free_all(model->given_up, model->shut_in, model->confined, model->move, model->lifted, model->inexact);
+    sunder_i_free_all(model->given_up, model->shut_in, model->confined, model->move, model->preferred, model->lifted,
+                      model->inexact);
     sunder_i_rtree_free(&model->tree);
     memset(model, 0, sizeof *model);
 }

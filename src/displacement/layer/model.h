@@ -104,10 +104,11 @@ typedef struct sunder_i_row_side {
     double along[2], least, least_listed; /* no rule: -INFINITY */
     double full;                          /* what is missing of this has the price of the pair; none: -INFINITY */
     double weight;                        /* of the springs: the lesser weight of the two bodies */
+    double rest[2];                       /* the relative move at which the springs are at rest (preferred.c) */
 } sunder_i_row_side;
 
-/* The springs of a row between a body and its neighbour, with u the neighbour's move minus the body's: each costs
- * stiff * (u.n)^2. There are up to two: across the row and along it. */
+/* The springs of a row between a body and its neighbour, with u the neighbour's move minus the body's, less the move at
+ * which they are at rest: each costs stiff * (u.n)^2. There are up to two: across the row and along it. */
 typedef struct sunder_i_spring {
     double n[2], stiff;
 } sunder_i_spring;
@@ -216,7 +217,8 @@ struct sunder_i_model {
     sunder_i_id_pair *confined; /* pairs of bodies i < j for which that is proved for all of their members, whichever
                                  * are in conflict; sorted */
     size_t confined_n;
-    double *move;   /* [2 * bodies] the present position of each, relative to the start */
+    double *move;      /* [2 * bodies] the present position of each, relative to the start */
+    double *preferred; /* [2 * bodies] the move of each that costs nothing; NULL: 0 for all (preferred.c) */
     double *lifted; /* [2 * bodies] the position of each when it was solved without limits; NULL: there was no such run,
                      * or it is not over */
     bool *inexact;  /* [things] the feature's translate is not exact, so it is written rounded */
@@ -348,6 +350,35 @@ static inline bool sunder_i_are_confined(const sunder_i_model *model, uint32_t i
     const sunder_i_id_pair pair = {i < j ? i : j, i < j ? j : i};
     return model->confined_n && bsearch(&pair, model->confined, model->confined_n, sizeof pair, sunder_i_by_id_pair);
 }
+
+/* ---- preferred.c ------------------------------------------------------------------------------------------------- */
+
+/* Returns the move of the body that costs nothing: its preferred place, relative to its original one. */
+static inline const double *sunder_i_preferred(const sunder_i_model *model, uint32_t body)
+{
+    static const double none[2] = {0, 0};
+    return model->preferred ? model->preferred + 2 * (size_t)body : none;
+}
+
+/* The distance of a move from the one that the body prefers. Its square times the body's weight is what it costs. */
+double sunder_i_stray(const sunder_i_model *model, uint32_t body, const double t[2]);
+static inline double sunder_i_stray_square(const sunder_i_model *model, uint32_t body, const double t[2])
+{
+    const double *a = sunder_i_preferred(model, body), x = t[0] - a[0], y = t[1] - a[1];
+    return x * x + y * y;
+}
+
+/* Does the body stand at another place than the one it prefers? */
+static inline bool sunder_i_is_astray(const sunder_i_model *model, uint32_t body, const double t[2])
+{
+    const double *a = sunder_i_preferred(model, body);
+    return t[0] != a[0] || t[1] != a[1];
+}
+
+/* Finds the preferred places of all bodies, if the layer has any. Returns false if memory is out. */
+bool sunder_i_model_prefer(sunder_i_model *model);
+/* Finds the relative moves at which the springs of rows are at rest. */
+void sunder_i_model_rest_springs(sunder_i_model *model);
 
 /* ---- full_gap.c -------------------------------------------------------------------------------------------------- */
 

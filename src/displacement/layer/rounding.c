@@ -79,17 +79,18 @@ bool sunder_i_is_exact_move(const sunder_i_model *model, uint32_t body, const do
     return all_exact(model, &model->body[body], move) || sunder_i_round_move(model, body, move, out, NULL);
 }
 
-bool sunder_i_round_move(const sunder_i_model *model, uint32_t b, const double move[2], double out[2], double *unit)
+/* A longer "move" comes from a quadratic program without a meaningful solution: the body stays at its original
+ * position. */
+static bool is_a_move(const double move[2]) { return fabs(move[0]) <= LONGEST_MOVE && fabs(move[1]) <= LONGEST_MOVE; }
+
+/* Sets `out` to the move in whole units of the coordinates, whatever its length, and u[] to these units. */
+static void round_coordinates(const sunder_i_model *model, const sunder_i_body *body, const double move[2],
+                              double out[2], double u[2])
 {
-    const sunder_i_body *body = &model->body[b];
-    double u[2];
-    /* A longer "move" comes from a quadratic program without a meaningful solution: the body stays at its original
-     * position. */
-    const bool is_move = fabs(move[0]) <= LONGEST_MOVE && fabs(move[1]) <= LONGEST_MOVE;
     for (size_t c = 0; c < 2; c++) {
         u[c] = 0;
         out[c] = 0;
-        if (move[c] == 0 || !is_move) continue;
+        if (move[c] == 0 || !is_a_move(move)) continue;
         /* Rounding may carry a coordinate into the next binade. Then it is repeated with the unit there. */
         for (int again = 0; again < 2; again++) {
             u[c] = ldexp(1, coarsest_unit(model, body, c, again ? out[c] : move[c]));
@@ -97,10 +98,23 @@ bool sunder_i_round_move(const sunder_i_model *model, uint32_t b, const double m
             if (!isfinite(out[c])) out[c] = move[c];
         }
     }
+}
+
+void sunder_i_round_to_units(const sunder_i_model *model, uint32_t b, const double move[2], double out[2])
+{
+    double u[2];
+    round_coordinates(model, &model->body[b], move, out, u);
+}
+
+bool sunder_i_round_move(const sunder_i_model *model, uint32_t b, const double move[2], double out[2], double *unit)
+{
+    const sunder_i_body *body = &model->body[b];
+    double u[2];
+    round_coordinates(model, body, move, out, u);
     if (unit) *unit = sunder_i_max(u[0], u[1]);
     if (!sunder_i_is_within_limit(out, body->limit))
         for (size_t c = 0; c < 2; c++) {
-            if (move[c] == 0 || !is_move) continue;
+            if (move[c] == 0 || !is_a_move(move)) continue;
             out[c] = u[c] * trunc(move[c] / u[c]);
         }
     /* If the move is still too long, it was too long before rounding: it is shortened by whole units. */

@@ -9,6 +9,9 @@
  * *unit is set to the coarsest unit of a coordinate, unless it is NULL. */
 bool sunder_i_round_move(const sunder_i_model *model, uint32_t b, const double move[2], double out[2], double *unit);
 
+/* The same, whatever the body's limit is. */
+void sunder_i_round_to_units(const sunder_i_model *model, uint32_t b, const double move[2], double out[2]);
+
 /* Are the coordinates of the body's members plus the move doubles, or those plus the move that sunder_i_round_move()
  * makes of it? */
 bool sunder_i_is_exact_move(const sunder_i_model *model, uint32_t body, const double move[2]);

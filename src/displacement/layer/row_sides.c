@@ -44,7 +44,8 @@ double sunder_i_spring_cost_with(const double stiffness[2], const sunder_i_row_s
     const size_t n = springs_with(stiffness, side, spring);
     double cost = 0;
     for (size_t k = 0; k < n; k++) {
-        const double u = (s[0] - t[0]) * spring[k].n[0] + (s[1] - t[1]) * spring[k].n[1];
+        const double u =
+            (s[0] - t[0] - side->rest[0]) * spring[k].n[0] + (s[1] - t[1] - side->rest[1]) * spring[k].n[1];
         cost += spring[k].stiff * u * u;
     }
     return cost;

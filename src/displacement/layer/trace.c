@@ -23,7 +23,7 @@ double sunder_i_trace_cost(const sunder_i_model *model, const uint32_t *body, si
     double cost = 0;
     for (size_t k = 0; k < n; k++) {
         const double *t = move ? move + 2 * k : model->move + 2 * (size_t)body[k];
-        cost += model->body[body[k]].weight * (t[0] * t[0] + t[1] * t[1]);
+        cost += model->body[body[k]].weight * sunder_i_stray_square(model, body[k], t);
     }
     return cost;
 }

@@ -159,7 +159,7 @@ static bool solve_part(mending *m, double tolerance, double scale, double more, 
     return true;
 }
 
-double sunder_i_quadratic_mend(sunder_i_quadratic *program, double tolerance, double scale, double more)
+double sunder_i_quadratic_mend_part(sunder_i_quadratic *program, double tolerance, double scale, double more)
 {
     if (program->n <= MOST_QUICK || !sunder_i_stage_is_on("program", "mend")) return INFINITY;
     mending m;

@@ -45,7 +45,10 @@ bool sunder_i_quadratic_is_beyond(const sunder_i_quadratic *program, double soft
 
 /* ---- quadratic.c ------------------------------------------------------------------------------------------------- */
 
-/* As sunder_i_quadratic_solve(), for a program without prices. */
+/* As sunder_i_quadratic_solve() and sunder_i_quadratic_mend(), for a program without preferred moves. */
+double sunder_i_quadratic_solve_priced(sunder_i_quadratic *program, double softness, double tolerance, double scale);
+double sunder_i_quadratic_mend_part(sunder_i_quadratic *program, double tolerance, double scale, double more);
+/* As sunder_i_quadratic_solve_priced(), for a program without prices. */
 double sunder_i_quadratic_solve_once(sunder_i_quadratic *program, double softness, double tolerance, double scale);
 
 /* ---- conjugate_gradients.c --------------------------------------------------------------------------------------- */

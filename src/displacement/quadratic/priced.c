@@ -34,7 +34,7 @@ static bool change_states(sunder_i_quadratic *p, priced *list, size_t n)
     return any;
 }
 
-double sunder_i_quadratic_solve(sunder_i_quadratic *program, double softness, double tolerance, double scale)
+double sunder_i_quadratic_solve_priced(sunder_i_quadratic *program, double softness, double tolerance, double scale)
 {
     size_t n = 0;
     for (size_t k = 0; k < program->n; k++) n += program->constraint[k].price > 0;

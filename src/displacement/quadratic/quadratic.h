@@ -25,7 +25,8 @@ typedef struct sunder_i_constraint {
 
 typedef struct sunder_i_quadratic {
     size_t bodies;
-    const double *mass; /* [bodies] inverse weights: 1 / (2 w); 0 for a fixed body */
+    const double *mass;      /* [bodies] inverse weights: 1 / (2 w); 0 for a fixed body */
+    const double *preferred; /* [2 * bodies] the moves that cost nothing, 0 for a fixed body; NULL: all are 0 */
     sunder_i_constraint *constraint;
     size_t n, capacity;
     double *t;           /* [2 * bodies] out: the moves */
@@ -47,11 +48,11 @@ static inline double sunder_i_stretch(const sunder_i_constraint *c, const double
     return v;
 }
 
-/* Minimises sum w |t|^2, plus the cost of the violations of constraints that give, under the constraints, starting from
- * their forces. softness > 0 lets every constraint be violated in proportion to its force (relative to what the force
- * moves), so that contradictions end in a compromise. Returns the largest violation beyond what constraints give,
- * INFINITY if it is only known that every solution costs too much, and a negative number if memory is out. scale: a
- * typical length of moves. */
+/* Minimises sum w |t - a|^2, with the preferred moves a, plus the cost of the violations of constraints that give,
+ * under the constraints, starting from their forces. softness > 0 lets every constraint be violated in proportion to
+ * its force (relative to what the force moves), so that contradictions end in a compromise. Returns the largest
+ * violation beyond what constraints give, INFINITY if it is only known that every solution costs too much, and a
+ * negative number if memory is out. scale: a typical length of moves. */
 double sunder_i_quadratic_solve(sunder_i_quadratic *program, double softness, double tolerance, double scale);
 
 /* Solves a large program again that was solved and has got a few more constraints: only bodies around the constraints

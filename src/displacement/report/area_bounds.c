@@ -6,7 +6,7 @@
  * belong to no part but were solved with them are added. Parts of which nearly the whole cost is proved are left out.
  * The bound may use only bodies that all have to keep the gap from each other. So of two bodies in a listed conflict
  * only the larger one is used. Nothing is computed if features may lie inside others, because such pairs need not keep
- * a gap. */
+ * a gap; nor if bodies prefer other places than their own, from which prices of area do not count. */
 #include "displacement/layer/resolution.h"
 #include "displacement/report/report.h"
 #include "displacement/report/tuning.h"
@@ -62,9 +62,9 @@ static void find_costs(payers *p)
 {
     const sunder_i_model *model = &p->s->model;
     for (uint32_t b = 0; b < model->bodies; b++) {
-        const double *t = model->move + 2 * (size_t)b;
         if (model->body[b].fixed) continue;
-        p->cost[sunder_i_union_find(p->parts->root, b)] += model->body[b].weight * (t[0] * t[0] + t[1] * t[1]);
+        p->cost[sunder_i_union_find(p->parts->root, b)] +=
+            model->body[b].weight * sunder_i_stray_square(model, b, model->move + 2 * (size_t)b);
     }
 }
 
@@ -148,7 +148,8 @@ static sunder_status bound_all_joint(payers *p, sunder_error *err)
 
 sunder_status sunder_i_report_area_bounds(sunder_i_solver *solver, sunder_i_independent_parts *parts, sunder_error *err)
 {
-    if (!(solver->model.rules.effort > 0) || solver->model.rules.contained == SUNDER_CONTAINMENT_IGNORE)
+    if (!(solver->model.rules.effort > 0) || solver->model.rules.contained == SUNDER_CONTAINMENT_IGNORE ||
+        solver->model.preferred)
         return SUNDER_OK;
     const size_t n = solver->model.bodies;
     payers p = {.s = solver,

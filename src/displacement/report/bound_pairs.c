@@ -85,9 +85,15 @@ static bool is_left(const sunder_i_solver *s, const sunder_i_relation *r)
     return false;
 }
 
+/* Do the two bodies prefer equal moves? Then the least relative move that separates them is the same from there. */
+static bool prefer_alike(const sunder_i_model *model, const sunder_i_relation *r)
+{
+    return !sunder_i_is_astray(model, model->body_of[r->a], sunder_i_preferred(model, model->body_of[r->b]));
+}
+
 /* Uses the pairs of features of different bodies, or of a feature and a barrier, that were in conflict at the start and
- * are not in conflict in the result. If several of them belong to the same two bodies, only the one with the longest
- * least relative move is kept. */
+ * are not in conflict in the result, and prefer equal moves. If several of them belong to the same two bodies, only the
+ * one with the longest least relative move is kept. */
 sunder_status sunder_i_report_bound(sunder_report *report, const sunder_i_solver *solver, sunder_error *err)
 {
     const sunder_i_model *model = &solver->model;
@@ -99,7 +105,7 @@ sunder_status sunder_i_report_bound(sunder_report *report, const sunder_i_solver
         for (size_t k = 0; k < solver->start.n; k++) {
             const sunder_i_relation *r = &solver->start.pair[k];
             const uint32_t b = sunder_i_whole_of(model, r->b);
-            if (!sunder_i_is_conflict_of_bodies(model, r) || is_left(solver, r)) continue;
+            if (!sunder_i_is_conflict_of_bodies(model, r) || is_left(solver, r) || !prefer_alike(model, r)) continue;
             if (n && report->bound_pair[n - 1].a == r->a && report->bound_pair[n - 1].b == b) continue;
             report->bound_pair[n].a = r->a;
             report->bound_pair[n++].b = b;

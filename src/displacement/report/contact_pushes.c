@@ -147,11 +147,13 @@ static bool list_forces(pressing *p)
 static bool press_group(pressing *p, const sunder_i_group *g)
 {
     const sunder_i_model *model = &p->solver->model;
-    double *mass = sunder_i_alloc(g->n, sizeof *mass), *t = sunder_i_calloc(2 * g->n, sizeof *t), size = 0;
-    bool ok = mass && t;
+    double *mass = sunder_i_alloc(g->n, sizeof *mass), *t = sunder_i_calloc(2 * g->n, sizeof *t),
+           *preferred = sunder_i_calloc(2 * g->n, sizeof *preferred), size = 0;
+    bool ok = mass && t && preferred;
     p->group = g;
     p->program.bodies = g->n;
     p->program.mass = mass;
+    p->program.preferred = model->preferred ? preferred : NULL;
     p->program.t = t;
     p->program.n = 0;
     p->program.work = 0;
@@ -160,11 +162,12 @@ static bool press_group(pressing *p, const sunder_i_group *g)
         const double *move = model->move + 2 * (size_t)g->body[i];
         mass[i] = body->fixed ? 0 : 0.5 / body->weight;
         size = sunder_i_max(size, hypot(move[0], move[1]));
+        if (!body->fixed) memcpy(preferred + 2 * i, sunder_i_preferred(model, g->body[i]), 2 * sizeof *preferred);
         ok = add_pairs_of(p, i) && add_limit(p, i);
     }
     if (ok && p->program.n && size > 0)
         ok = sunder_i_quadratic_solve(&p->program, 0, PRESSED * size, size) >= 0 && list_forces(p);
-    sunder_i_free_all(mass, t);
+    sunder_i_free_all(mass, t, preferred);
     return ok;
 }
 

@@ -203,10 +203,9 @@ static bool prove_body(const easing *x, uint32_t body, eased_group *all)
 {
     const sunder_i_model *model = &x->solver->model;
     sunder_i_group alone = {.body = &body, .n = 1, .number = body};
-    const double *t = model->move + 2 * (size_t)body;
     eased_group e = {0};
     bool ok = gather(x->report, model, &alone, &e);
-    e.cost = model->body[body].weight * (t[0] * t[0] + t[1] * t[1]) + e.pays;
+    e.cost = sunder_i_move_cost(model, body, model->move + 2 * (size_t)body) + e.pays;
     if (ok && e.prices) ok = prove_eased(x, NULL, &e, BODY_STEPS);
     if (ok && e.bound > 0) {
         all->bound = all->bound > 0 ? nextafter(all->bound + e.bound, -INFINITY) : e.bound;

@@ -61,8 +61,9 @@ static double cost_of(const sunder_i_model *model, const sunder_i_group *g, cons
 {
     double cost = 0;
     for (size_t k = 0; k < g->n; k++) {
-        const double *t = model->move + 2 * (size_t)g->body[k];
-        cost += model->body[g->body[k]].weight * (t[0] * t[0] + t[1] * t[1]);
+        if (model->body[g->body[k]].fixed) continue;
+        cost += model->body[g->body[k]].weight *
+                sunder_i_stray_square(model, g->body[k], model->move + 2 * (size_t)g->body[k]);
         if (paying) cost += paying[g->body[k]].pays;
     }
     if (model->row_sides) cost += cost_of_springs(model, g);

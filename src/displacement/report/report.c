@@ -83,13 +83,15 @@ void sunder_i_report_moves(sunder_report *report, const sunder_i_model *model)
     sunder_total total = {0}, cost = {0};
     for (size_t f = 0; f < model->features; f++) {
         const double *t = model->move + 2 * (size_t)model->body_of[f];
-        if ((t[0] == 0 && t[1] == 0) || report->status[f] == SUNDER_FEATURE_HIDDEN) continue;
+        if (report->status[f] == SUNDER_FEATURE_HIDDEN) continue;
+        const double square = sunder_i_stray_square(model, model->body_of[f], t);
+        sunder_total_add(&cost, sunder_i_feature(model->layer, f).weight * square);
+        if (t[0] == 0 && t[1] == 0) continue;
         report->move[2 * f] = t[0];
         report->move[2 * f + 1] = t[1];
         const double length = hypot(t[0], t[1]);
         report->status[f] = SUNDER_FEATURE_MOVED;
         sunder_total_add(&total, length);
-        sunder_total_add(&cost, sunder_i_feature(model->layer, f).weight * (t[0] * t[0] + t[1] * t[1]));
         if (length > s->max) {
             s->max = length;
             s->max_feature = f;

@@ -60,7 +60,8 @@ static sunder_status measure_pairs(const sunder_row_pair *pair, size_t n, const 
     double *slide = kink + n, *turn = slide + n;
     for (size_t k = 0; k < n; k++) {
         const sunder_row_pair *p = &pair[k];
-        const sunder_i_row_side side = {.along = {p->along[0], p->along[1]}, .weight = p->weight};
+        const sunder_i_row_side side = {
+            .along = {p->along[0], p->along[1]}, .weight = p->weight, .rest = {p->rest[0], p->rest[1]}};
         kink[k] = fabs(bend_of(p));
         slide[k] = fabs(slide_of(p));
         turn[k] = turn_of(p);
@@ -230,7 +231,8 @@ sunder_status sunder_i_report_row_pairs(sunder_report *report, const sunder_i_mo
     report->hidden_row_pairs = rows->hidden;
     for (size_t e = 0; e < n; e++) {
         const sunder_i_row_edge *edge = &rows->edge[e];
-        const double *s = model->move + 2 * (size_t)edge->i, *t = model->move + 2 * (size_t)edge->j;
+        const double *s = model->move + 2 * (size_t)edge->i, *t = model->move + 2 * (size_t)edge->j,
+                     *a = sunder_i_preferred(model, edge->i), *b = sunder_i_preferred(model, edge->j);
         report->row_pair[e] =
             (sunder_row_pair){.feature = {edge->f, edge->g},
                               .side = {edge->side[0], edge->side[1]},
@@ -240,7 +242,8 @@ sunder_status sunder_i_report_row_pairs(sunder_report *report, const sunder_i_mo
                               .middle = {edge->middle[0], edge->middle[1]},
                               .weight = sunder_i_min(sunder_i_weight_below(model, &model->body[edge->i]),
                                                      sunder_i_weight_below(model, &model->body[edge->j])),
-                              .move = {{s[0], s[1]}, {t[0], t[1]}}};
+                              .move = {{s[0], s[1]}, {t[0], t[1]}},
+                              .rest = {b[0] - a[0], b[1] - a[1]}};
     }
     return SUNDER_OK;
 }
@@ -256,7 +259,8 @@ static sunder_row_pair turned(const sunder_row_pair *p)
                              .offset = p->offset,
                              .middle = {p->middle[0], p->middle[1]},
                              .weight = p->weight,
-                             .move = {{p->move[1][0], p->move[1][1]}, {p->move[0][0], p->move[0][1]}}};
+                             .move = {{p->move[1][0], p->move[1][1]}, {p->move[0][0], p->move[0][1]}},
+                             .rest = {-p->rest[0], -p->rest[1]}};
 }
 
 static int by_feature_pair(const void *x, const void *y)

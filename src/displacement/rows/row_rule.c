@@ -66,7 +66,8 @@ static void add_edge(const sunder_i_model *model, const sunder_i_row_edge *e, bo
                                      listed,
                                      near ? full : -INFINITY,
                                      sunder_i_min(sunder_i_weight_below(model, &model->body[e->i]),
-                                                  sunder_i_weight_below(model, &model->body[e->j]))};
+                                                  sunder_i_weight_below(model, &model->body[e->j])),
+                                     {0, 0}};
     add_halves(e->i, &there, out, n);
 }
 
@@ -130,8 +131,8 @@ sunder_status sunder_i_rows_take_rule(const sunder_i_row_demand *demand, size_t 
     for (size_t k = 0; k < model->features && ok; k++) body[number[k]] = model->body_of[k];
     for (size_t k = 0; k < n && ok; k++) {
         const sunder_i_row_demand *d = &demand[k];
-        const sunder_i_row_side there = {body[d->b],     {d->along[0], d->along[1]}, d->least,
-                                         d->least_listed, -INFINITY,                  0};
+        const sunder_i_row_side there = {
+            body[d->b], {d->along[0], d->along[1]}, d->least, d->least_listed, -INFINITY, 0, {0, 0}};
         if (body[d->a] != body[d->b]) add_halves(body[d->a], &there, all, &halves);
     }
     ok = ok && keep_rule(model, all, halves);

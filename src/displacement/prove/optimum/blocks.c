@@ -9,7 +9,8 @@
  *
  * where opt(S) is the least cost of the block's bodies alone, for which a tree (tree.c) proves a lower bound. This
  * holds for any shares and places, so they are taken as the doubles that were computed; v_i is nearly 0, and its term
- * is rounded so that the bound stays valid.
+ * is rounded so that the bound stays valid. It also holds if t and a^S count from the preferred move of each body, as
+ * they do in these sums; an anchor below is a^S plus the preferred move.
  *
  * A spring between neighbours in a row is a contact, and belongs to one block; the others do without it.
  *
@@ -32,6 +33,17 @@
 
 #include <math.h>
 #include <string.h>
+
+static const double *preferred_of(const sunder_i_lagrangian *d, const sunder_i_block_copy *copy)
+{
+    return d->anchor + 2 * (size_t)copy->at;
+}
+
+/* How far from its preferred move the copy is drawn, along axis e: correct but for a share of 2^-53. */
+static double drawn_by(const sunder_i_lagrangian *d, const sunder_i_block_copy *copy, size_t e)
+{
+    return copy->anchor[e] - preferred_of(d, copy)[e];
+}
 
 /* Computes the forces on each copy of a body, and its share of the body's weight. */
 static void share_out(sunder_i_lagrangian *d)
@@ -59,7 +71,9 @@ static void draw_copies(sunder_i_lagrangian *d, double part)
     for (size_t m = 0; m < d->items; m++) {
         sunder_i_block_copy *i = &d->item[m];
         for (int e = 0; e < 2 && i->share > 0; e++)
-            i->anchor[e] = part * (d->contacts.program.t[2 * i->at + (size_t)e] - i->force[e] / (2 * i->share));
+            i->anchor[e] = part * (d->contacts.program.t[2 * i->at + (size_t)e] - preferred_of(d, i)[e] -
+                                   i->force[e] / (2 * i->share)) +
+                           preferred_of(d, i)[e];
     }
 }
 
@@ -79,10 +93,11 @@ static double taken_by_shares(const sunder_i_lagrangian *d)
             const sunder_i_block_copy *i = &d->item[m];
             if (i->at != at) continue;
             whole += i->share;
-            for (int e = 0; e < 2; e++) {
-                v[e] += i->share * i->anchor[e];
-                size[e] += fabs(i->share * i->anchor[e]);
-                own += i->share * i->anchor[e] * i->anchor[e];
+            for (size_t e = 0; e < 2; e++) {
+                const double a = drawn_by(d, i, e);
+                v[e] += i->share * a;
+                size[e] += fabs(i->share * a);
+                own += i->share * a * a;
             }
         }
         const double left = d->weight[at] - whole * (1 + unit);
@@ -104,8 +119,9 @@ static void balance_anchors(sunder_i_lagrangian *d)
         for (size_t k = m + 1; k < d->items && is_last; k++) is_last = d->item[k].at != last->at;
         if (!is_last) continue;
         for (size_t k = 0; k < m; k++)
-            for (int e = 0; e < 2 && d->item[k].at == last->at; e++) sum[e] += d->item[k].share * d->item[k].anchor[e];
-        for (int e = 0; e < 2; e++) last->anchor[e] = -sum[e] / last->share;
+            for (size_t e = 0; e < 2 && d->item[k].at == last->at; e++)
+                sum[e] += d->item[k].share * drawn_by(d, &d->item[k], e);
+        for (int e = 0; e < 2; e++) last->anchor[e] = -sum[e] / last->share + preferred_of(d, last)[e];
     }
 }
 
@@ -117,9 +133,10 @@ static bool note_cut(sunder_i_lagrangian *d, size_t block, double value)
     double x[2 * MOST_IN_BLOCK], t[2 * MOST_IN_BLOCK];
     for (size_t k = 0; k < n; k++)
         for (size_t e = 0; e < 2; e++) {
-            x[2 * k + e] = item[k].share * item[k].anchor[e];
-            t[2 * k + e] = item[k].t[e];
-            value -= item[k].share * item[k].anchor[e] * item[k].anchor[e];
+            const double a = drawn_by(d, &item[k], e);
+            x[2 * k + e] = item[k].share * a;
+            t[2 * k + e] = item[k].t[e] - preferred_of(d, &item[k])[e];
+            value -= item[k].share * a * a;
         }
     return sunder_i_bundle_add(&d->bundle, block, value, x, t);
 }
@@ -147,7 +164,7 @@ static double list_springs(const sunder_i_lagrangian *d, size_t block, sunder_i_
         cut->i = place_in_block(d, block, c->cut[k].i);
         cut->j = place_in_block(d, block, c->cut[k].j);
         const double *t = d->item[d->first[block] + cut->i].t, *s = d->item[d->first[block] + cut->j].t;
-        const double missing = sunder_i_max(0, cut->n[0] * (t[0] - s[0]) + cut->n[1] * (t[1] - s[1]));
+        const double missing = sunder_i_max(0, cut->d + cut->n[0] * (t[0] - s[0]) + cut->n[1] * (t[1] - s[1]));
         cost += missing * missing / (2 * cut->give);
     }
     return cost;
@@ -270,7 +287,8 @@ static double hoped_for(double cost, double now) { return now > 0 ? sunder_i_min
 static void put_anchors(sunder_i_lagrangian *d, const double *x)
 {
     for (size_t m = 0; m < d->items; m++)
-        for (size_t e = 0; e < 2 && d->item[m].share > 0; e++) d->item[m].anchor[e] = x[2 * m + e] / d->item[m].share;
+        for (size_t e = 0; e < 2 && d->item[m].share > 0; e++)
+            d->item[m].anchor[e] = x[2 * m + e] / d->item[m].share + preferred_of(d, &d->item[m])[e];
 }
 
 /* Repeatedly evaluates the places where the known cuts promise most, around the centre. best: the copies at the best
@@ -284,7 +302,7 @@ static bool improve_anchors(sunder_i_lagrangian *d, sunder_i_block_copy *best, d
     double now = *bound, stride = first_stride(d, best, hoped_for(cost, now)), past = now;
     size_t looks = 0;
     for (size_t m = 0; m < d->items; m++)
-        for (size_t e = 0; e < 2; e++) centre[2 * m + e] = best[m].share * best[m].anchor[e];
+        for (size_t e = 0; e < 2; e++) centre[2 * m + e] = best[m].share * drawn_by(d, &best[m], e);
     for (uint64_t each = d->each; d->steps < d->most && cost - now > BLOCKS_NEAR * cost;) {
         double value, promise;
         *ok = sunder_i_bundle_propose(&d->bundle, centre, stride, x, &promise);
@@ -345,7 +363,8 @@ static bool begin_bundle(sunder_i_lagrangian *d)
             for (int e = 0; e < 2; e++) {
                 sunder_i_block_copy *i = &d->item[m];
                 i->t[e] = d->group->move[2 * (size_t)i->at + (size_t)e];
-                value += i->share * i->t[e] * i->t[e];
+                const double t = i->t[e] - preferred_of(d, i)[e];
+                value += i->share * t * t;
             }
         value += list_springs(d, k, spring, &springs);
         if (!note_cut(d, k, value)) return false;
@@ -366,6 +385,8 @@ static bool prepare_forces(sunder_i_lagrangian *d)
         const sunder_i_body *b = &d->model->body[d->group->body[k]];
         d->weight[k] = b->fixed ? INFINITY : sunder_i_weight_below(d->model, b);
         d->mass[k] = b->fixed ? 0 : 0.5 / d->weight[k];
+        if (!b->fixed)
+            memcpy(d->anchor + 2 * k, sunder_i_preferred(d->model, d->group->body[k]), 2 * sizeof *d->anchor);
     }
     if (!sunder_i_contact_forces_find(&d->contacts, d->model, d->waived, d->group, d->weight, d->mass, d->anchor))
         return false;

@@ -31,8 +31,8 @@ void sunder_i_contact_forces_free(sunder_i_contact_forces *contacts);
 /* ---- block_cover.c ----------------------------------------------------------------------------------------------- */
 
 /* A copy of a body: the body as a member of one block. share: its share of the body's weight; force: the sum of the
- * forces of the block's contacts on it; anchor: the place to which it is drawn; t: its move in the block's last
- * layout. */
+ * forces of the block's contacts on it; anchor: the place to which it is drawn, not relative to the preferred one; t:
+ * its move in the block's last layout. */
 typedef struct sunder_i_block_copy {
     uint32_t at; /* the body's place in the group's list */
     double share;
@@ -43,7 +43,7 @@ typedef struct sunder_i_lagrangian {
     const sunder_i_model *model;
     const sunder_i_waived *waived;
     const sunder_i_group *group;
-    double *weight, *mass, *anchor; /* [group] of the bodies; all anchors are 0 */
+    double *weight, *mass, *anchor; /* [group] of the bodies; the anchors are the preferred moves */
     sunder_i_contact_forces contacts;
     uint32_t *home;  /* [contacts] the block that each belongs to */
     uint32_t *count; /* [group] the number of copies of each body */

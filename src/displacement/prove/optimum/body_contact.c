@@ -58,8 +58,12 @@ size_t sunder_i_spring_cuts(const sunder_i_model *model, uint32_t a, uint32_t b,
     for (size_t k = 0; k < 2 * springs; k++) {
         const sunder_i_spring *s = &spring[k / 2];
         const double sign = k % 2 ? 1 : -1;
-        cut[k] = (sunder_i_move_cut){
-            .i = i, .j = j, .n = {sign * s->n[0], sign * s->n[1]}, .give = (1 + 0x1p-48) / (2 * s->stiff)};
+        /* Adding 0 makes a sum of -0 and -0 a 0. */
+        cut[k] = (sunder_i_move_cut){.i = i,
+                                     .j = j,
+                                     .n = {sign * s->n[0], sign * s->n[1]},
+                                     .d = sign * s->n[0] * side->rest[0] + sign * s->n[1] * side->rest[1] + 0.0,
+                                     .give = (1 + 0x1p-48) / (2 * s->stiff)};
     }
     return 2 * springs;
 }

@@ -34,7 +34,8 @@ static double cost_of(const sunder_i_model *model, const uint32_t *body, size_t 
 {
     double cost = sunder_i_springs_within(model, body, n, move);
     for (size_t k = 0; k < n; k++)
-        cost += model->body[body[k]].weight * (move[2 * k] * move[2 * k] + move[2 * k + 1] * move[2 * k + 1]);
+        if (!model->body[body[k]].fixed)
+            cost += model->body[body[k]].weight * sunder_i_stray_square(model, body[k], move + 2 * k);
     return cost * (1 + ((double)n + 8) * 0x1p-50);
 }
 

@@ -71,15 +71,15 @@ static void find_rows(sunder_i_tight *f)
     for (size_t c = 0; c < 2; c++) find_rows_along(f, c);
 }
 
-/* A row on which no contact presses is cheapest if its weighted moves add up to zero. If a row is nearly so, it is
- * moved to that position: its bodies had a margin between them, so the first body's place is off by about that margin.
- * Returns false if memory is out. */
+/* A row on which no contact presses is cheapest if its weighted moves from the preferred ones add up to zero. If a row
+ * is nearly so, it is moved to that position: its bodies had a margin between them, so the first body's place is off by
+ * about that margin. Returns false if memory is out. */
 static bool centre_rows(sunder_i_tight *f)
 {
     double *sum = sunder_i_calloc(2 * f->rows, sizeof *sum), *weight = sum ? sum + f->rows : NULL;
     for (size_t k = 0; sum && k < 2 * f->n; k++) {
         const double own = f->model->body[f->body[k / 2]].weight;
-        sum[f->row[k]] += own * sunder_i_tight_place_of(f, k);
+        sum[f->row[k]] += own * (sunder_i_tight_place_of(f, k) - sunder_i_preferred(f->model, f->body[k / 2])[k % 2]);
         weight[f->row[k]] += own;
     }
     for (size_t row = 0; sum && row < f->rows; row++)

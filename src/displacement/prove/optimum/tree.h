@@ -29,7 +29,7 @@ typedef struct sunder_i_task {
     const uint32_t *body;     /* [n] */
     size_t n;
     const double *weight;            /* [n] at most the bodies' own weights; NULL: exactly these */
-    const double *anchor;            /* [2 n] the points a; 0 for bodies that do not move; NULL: all are 0 */
+    const double *anchor;            /* [2 n] the points a; 0 for bodies that do not move; NULL: the preferred moves */
     double goal;                     /* the bound to be proved */
     bool all_springs;                /* all springs between these bodies count; or: */
     const sunder_i_move_cut *spring; /* [springs] those that count */

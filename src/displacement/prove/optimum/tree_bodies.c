@@ -2,6 +2,8 @@
 #include "displacement/prove/optimum/body_contact.h"
 #include "displacement/prove/optimum/tree.h"
 
+#include <string.h>
+
 void sunder_i_tree_lend_bodies(sunder_i_tree *tree)
 {
     tree->task.body = tree->body;
@@ -18,6 +20,7 @@ void sunder_i_tree_set_body(sunder_i_tree *tree, size_t k, uint32_t body, double
     tree->weight[k] = b->fixed ? INFINITY : weight;
     tree->mass[k] = b->fixed ? 0 : 0.5 / weight;
     tree->limit[k] = sunder_i_limit_of(b);
+    if (!b->fixed) memcpy(tree->anchor + 2 * k, sunder_i_preferred(tree->task.model, body), 2 * sizeof *tree->anchor);
 }
 
 void sunder_i_tree_add_guest(sunder_i_tree *tree, uint32_t body)
@@ -25,7 +28,6 @@ void sunder_i_tree_add_guest(sunder_i_tree *tree, uint32_t body)
     const size_t n = tree->task.n;
     if (n == tree->capacity) return;
     sunder_i_tree_set_body(tree, n, body, sunder_i_weight_below(tree->task.model, &tree->task.model->body[body]));
-    tree->anchor[2 * n] = tree->anchor[2 * n + 1] = 0;
     tree->task.n = n + 1;
     sunder_i_tree_lend_bodies(tree);
     sunder_i_dual_place(&tree->program);

@@ -12,7 +12,8 @@
 bool sunder_i_group_is_unlimited(const sunder_i_model *model, const sunder_i_waived *waived,
                                  const sunder_i_group *group)
 {
-    if (group->n <= BRANCHED || sunder_i_forbids_paths(model) || model->rules.contained == SUNDER_CONTAINMENT_IGNORE)
+    if (group->n <= BRANCHED || sunder_i_forbids_paths(model) || model->rules.contained == SUNDER_CONTAINMENT_IGNORE ||
+        model->preferred)
         return false;
     for (size_t k = 0; k < group->n; k++) {
         const sunder_i_body *b = &model->body[group->body[k]];

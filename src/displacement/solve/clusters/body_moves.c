@@ -42,6 +42,22 @@ void sunder_i_solver_place(sunder_i_solver *solver, uint32_t b, const double *mo
     if (goes_elsewhere(solver, b, move)) place_body(solver, b, move, sunder_i_is_exact_move(&solver->model, b, move));
 }
 
+void sunder_i_solver_start_of(const sunder_i_solver *solver, uint32_t b, double start[2])
+{
+    sunder_i_round_move(&solver->model, b, sunder_i_preferred(&solver->model, b), start, NULL);
+}
+
+sunder_status sunder_i_solver_start_preferred(sunder_i_solver *solver, sunder_error *err)
+{
+    sunder_i_changes_clear(&solver->changes);
+    for (uint32_t b = 0; b < solver->model.bodies; b++) {
+        double start[2];
+        sunder_i_solver_start_of(solver, b, start);
+        sunder_i_solver_place(solver, b, start);
+    }
+    return sunder_i_solver_relate(solver, err);
+}
+
 typedef struct committing {
     const sunder_i_solver *solver;
     bool *exact; /* [members] does the new move need no rounding? for clusters that were worked on */

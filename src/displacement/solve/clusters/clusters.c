@@ -223,10 +223,11 @@ static bool list_members(sunder_i_solver *s)
 }
 
 /* Does the cluster start from prices of area? It does if it is large, has no limits, and has grown since it last
- * started so. What a large crowd ran into hardly changes the best positions, so it has to have doubled. */
+ * started so, provided that bodies prefer to stay. What a large crowd ran into hardly changes the best positions, so it
+ * has to have doubled. */
 static bool is_new_crowd(const sunder_i_solver *s, const sunder_i_cluster *c)
 {
-    if (!(s->model.rules.effort > 0) || c->limited || c->brief || c->n < CROWD) return false;
+    if (!(s->model.rules.effort > 0) || c->limited || c->brief || c->n < CROWD || s->model.preferred) return false;
     const size_t most = c->n <= LARGE_GROWN_CROWD ? c->n - 1 : c->n / 2;
     for (size_t k = 0; k < c->n; k++)
         if (s->crowd_size[c->body[k]] > most) return false;

@@ -43,13 +43,13 @@ static bool enqueue_body(flooding *f, uint32_t body)
     return sunder_i_list_push(&f->out->body, body);
 }
 
-/* Puts into the queue the movable bodies that have moved or are in conflict. */
+/* Puts into the queue the movable bodies that stand at other places than they prefer, or are in conflict. */
 static bool enqueue_starting_bodies(flooding *f)
 {
     const sunder_i_solver *s = f->solver;
     bool ok = true;
     for (uint32_t b = 0; b < s->model.bodies && ok; b++)
-        if (s->model.move[2 * b] != 0 || s->model.move[2 * b + 1] != 0) ok = enqueue_body(f, b);
+        if (sunder_i_is_astray(&s->model, b, s->model.move + 2 * (size_t)b)) ok = enqueue_body(f, b);
     for (size_t k = 0; k < s->now.n && ok; k++) {
         const sunder_i_relation *r = &s->now.pair[k];
         if (sunder_i_is_conflict_of_bodies(&s->model, r))
@@ -91,7 +91,7 @@ static bool add_contact(contacts *out, uint32_t b, uint32_t other)
     return true;
 }
 
-/* Adds the neighbours in rows whose springs to b act, because the two have moved by different vectors. */
+/* Adds the neighbours in rows whose springs to b act: they are stretched. */
 static bool find_springs(const flooding *f, uint32_t b, contacts *out)
 {
     const sunder_i_model *model = f->model;
@@ -100,9 +100,9 @@ static bool find_springs(const flooding *f, uint32_t b, contacts *out)
     if (!(stiffness[0] + stiffness[1] > 0)) return true;
     for (uint32_t k = has->row_side; k < has->row_side + has->row_sides; k++) {
         const uint32_t other = model->row_side[k].other;
-        const double *s = model->move + 2 * (size_t)other;
-        if (hypot(s[0] - t[0], s[1] - t[1]) > SLACK_SPRING * model->rules.gap && looks_for_contact(f, b, other) &&
-            !add_contact(out, b, other))
+        const double *s = model->move + 2 * (size_t)other, *rest = model->row_side[k].rest;
+        if (hypot(s[0] - t[0] - rest[0], s[1] - t[1] - rest[1]) > SLACK_SPRING * model->rules.gap &&
+            looks_for_contact(f, b, other) && !add_contact(out, b, other))
             return false;
     }
     return true;

@@ -56,7 +56,7 @@ static bool is_tired(const sunder_i_solver *s, const sunder_i_group *g)
     double all = 0, tired = 0;
     for (size_t k = 0; k < g->n; k++) {
         const sunder_i_body *b = &s->model.body[g->body[k]];
-        const double cost = b->fixed ? 0 : sunder_i_move_cost(b, g->move + 2 * k);
+        const double cost = b->fixed ? 0 : sunder_i_move_cost(&s->model, g->body[k], g->move + 2 * k);
         all += cost;
         if (sunder_i_is_in(s, SUNDER_I_SHAKING, g->body[k], SUNDER_I_SHAKEN)) tired += cost;
     }

@@ -138,8 +138,8 @@ static void compare_layouts(const comparing *c, const sunder_i_id_pair *now, siz
         const sunder_i_body *body = &model->body[b];
         tally *of = &c->of[sunder_i_union_find(c->root, b)];
         if (body->fixed) continue;
-        of->held_cost += sunder_i_move_cost(body, c->held->move + 2 * (size_t)b);
-        of->free_cost += sunder_i_move_cost(body, model->move + 2 * (size_t)b);
+        of->held_cost += sunder_i_move_cost(model, b, c->held->move + 2 * (size_t)b);
+        of->free_cost += sunder_i_move_cost(model, b, model->move + 2 * (size_t)b);
         of->was_held = of->was_held || c->held->held[b];
         of->breaks = of->breaks || is_thrown(c, b) || is_bent(c, b);
     }

@@ -6,14 +6,14 @@
  * group takes these places if they cost less and hold exactly (trial.c). Two isolated features are in contact already
  * (../search/lone_pair.c).
  *
- * The margins of its neighbours push a body from home that has nothing to gain. When no neighbour needs its margin any
- * more, since coordinates are rounded or a neighbour stands in exact contact, it returns home. */
+ * The margins of its neighbours push a body from home, the place that it prefers, that has nothing to gain. When no
+ * neighbour needs its margin any more, since coordinates are rounded or a neighbour stands in exact contact, it returns
+ * home. */
 #include "displacement/prove/optimum/optimum.h"
 #include "displacement/solve/clusters/cluster_stages.h"
 #include "displacement/solve/clusters/trial.h"
 #include "displacement/solve/clusters/tuning.h"
 
-#include <math.h>
 #include <string.h>
 
 /* Computes places in exact contact for the group's bodies; *found if there are any. move: [2 * n] the present moves,
@@ -37,7 +37,9 @@ static double cost_increase(const sunder_i_model *model, const sunder_i_group *g
     double more = 0;
     for (size_t k = 0; k < g->n; k++) {
         const double *to = move + 2 * k, *at = model->move + 2 * (size_t)g->body[k];
-        for (size_t c = 0; c < 2; c++) more += model->body[g->body[k]].weight * ((to[c] - at[c]) * (to[c] + at[c]));
+        const double *a = sunder_i_preferred(model, g->body[k]);
+        for (size_t c = 0; c < 2; c++)
+            more += model->body[g->body[k]].weight * ((to[c] - at[c]) * (to[c] - a[c] + (at[c] - a[c])));
     }
     return more;
 }
@@ -67,8 +69,7 @@ static sunder_status put_group_in_contact(sunder_i_solver *s, const sunder_i_gro
 static bool has_moved(const sunder_i_model *model, const sunder_i_group *g)
 {
     for (size_t k = 0; k < g->n; k++) {
-        const double *t = model->move + 2 * (size_t)g->body[k];
-        if (t[0] != 0 || t[1] != 0) return true;
+        if (sunder_i_is_astray(model, g->body[k], model->move + 2 * (size_t)g->body[k])) return true;
     }
     return false;
 }
@@ -88,8 +89,18 @@ sunder_status sunder_i_solver_put_in_contact(sunder_i_solver *solver, sunder_err
 
 static bool is_hardly_moved(const sunder_i_model *model, const sunder_i_cluster *c, uint32_t body)
 {
-    const double *t = model->move + 2 * (size_t)body, far = hypot(t[0], t[1]);
+    const double far = sunder_i_stray(model, body, model->move + 2 * (size_t)body);
     return far > 0 && far <= HARDLY * c->margin && sunder_i_may_move(&model->body[body]);
+}
+
+/* Sets the goal of each body of the trial to the place that it prefers. False if memory is out. */
+static bool aim_at_preferred(const sunder_i_solver *s, sunder_i_trial *t)
+{
+    if (!s->model.preferred || t->n == 0) return true;
+    t->goal = sunder_i_alloc(2 * t->n, sizeof *t->goal);
+    for (size_t k = 0; k < t->n && t->goal; k++)
+        memcpy(t->goal + 2 * k, sunder_i_preferred(&s->model, t->body[k]), 2 * sizeof *t->goal);
+    return t->goal != NULL;
 }
 
 /* Tries to send home body `only`, or all bodies of the cluster that hardly moved. *well: whether that was possible. */
@@ -102,6 +113,7 @@ static sunder_status send_home(sunder_i_solver *s, const sunder_i_cluster *c, ui
     for (size_t k = 0; k < c->n && ok; k++)
         if (is_hardly_moved(&s->model, c, c->body[k]) && (only == SUNDER_I_NOBODY || only == c->body[k]))
             ok = sunder_i_trial_take(&t, c->body[k]);
+    ok = ok && aim_at_preferred(s, &t);
     sunder_status status = ok ? SUNDER_OK : sunder_i_failure_cause(err);
     if (!status && t.n) status = sunder_i_trial_place(&t, home, err);
     *well = t.well || t.n == 0;

@@ -2,7 +2,7 @@
  *
  * Bodies that keep their limits in that solution are left as they are: so limits that are not exceeded make no
  * difference, and a limit is never the reason for a worse solution than is known without it. Only bodies that exceed
- * theirs go back to their original places, with their clusters, and are solved again within their limits.
+ * theirs go back to where they started, with their clusters, and are solved again within their limits.
  *
  * Solving pairs that no moves within the limits can separate would be useless: whatever is connected with one at the
  * start is set aside meanwhile. If others run into it, they go back too. So does a cluster that would become part of a
@@ -70,11 +70,12 @@ sunder_status sunder_i_solver_lift_limits(sunder_i_solver *solver, sunder_error 
 static void send_home(sunder_i_solver *s, const bool *back)
 {
     sunder_i_model *model = &s->model;
-    const double home[2] = {0, 0};
     sunder_i_changes_clear(&s->changes);
     for (uint32_t b = 0; b < model->bodies; b++) {
+        double start[2];
         if (!back[b]) continue;
-        sunder_i_solver_place(s, b, home);
+        sunder_i_solver_start_of(s, b, start);
+        sunder_i_solver_place(s, b, start);
         model->body[b].pinned = false;
         s->widened[b] = 0;
         sunder_i_body_event(&s->states, b, SUNDER_I_GOES_HOME);
@@ -95,8 +96,9 @@ static bool costs_more_than_limits(const sunder_i_solver *s, const sunder_i_clus
         const uint32_t b = c->body[k];
         const sunder_i_body *body = &s->model.body[b];
         if (body->fixed) continue;
-        cost += sunder_i_move_cost(body, s->model.move + 2 * (size_t)b);
-        most += body->weight * s->limit[b] * s->limit[b];
+        const double *to = sunder_i_preferred(&s->model, b), far = s->limit[b] + hypot(to[0], to[1]);
+        cost += sunder_i_move_cost(&s->model, b, s->model.move + 2 * (size_t)b);
+        most += body->weight * far * far;
     }
     return cost > most;
 }

@@ -217,7 +217,7 @@ static bool has_moved_alone(const sunder_i_solver *s, uint32_t b)
     size_t movable = 0;
     if (!c || !sunder_i_may_move(&model->body[b]) || sunder_i_limit_of(&model->body[b]) < INFINITY) return false;
     for (size_t k = 0; k < c->n; k++) movable += sunder_i_may_move(&model->body[c->body[k]]);
-    return movable == 1 && (at[0] != 0 || at[1] != 0);
+    return movable == 1 && sunder_i_is_astray(model, b, at);
 }
 
 /* Moves a body in no conflict to the first place that is free without a margin, if that is nearer by a share of NEARER
@@ -229,8 +229,8 @@ static sunder_status move_nearer(sunder_i_solver *s, uint32_t body, sunder_error
     size_t n;
     sunder_i_reading reading;
     sunder_i_reads_begin(&reading, &s->model, body);
-    const bool ok = sunder_i_cluster_free_places(&s->model, body, hypot(at[0], at[1]) * (1 - NEARER), NEARER_PLACES,
-                                                 place, &n);
+    const double far = sunder_i_stray(&s->model, body, at);
+    const bool ok = sunder_i_cluster_free_places(&s->model, body, far * (1 - NEARER), NEARER_PLACES, place, &n);
     sunder_i_reads_end(&reading);
     sunder_status status = ok ? SUNDER_OK : sunder_i_failure_cause(err);
     for (size_t k = 0; k < n && !status; k++) {

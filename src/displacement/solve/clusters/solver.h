@@ -102,9 +102,9 @@ typedef struct sunder_i_solver {
 const char *sunder_i_solver_check_states(const sunder_i_solver *solver);
 
 /* The cost of a body's move t. */
-static inline double sunder_i_move_cost(const sunder_i_body *body, const double t[2])
+static inline double sunder_i_move_cost(const sunder_i_model *model, uint32_t body, const double t[2])
 {
-    return body->weight * (t[0] * t[0] + t[1] * t[1]);
+    return model->body[body].weight * sunder_i_stray_square(model, body, t);
 }
 
 /* A property of a body. */
@@ -202,6 +202,10 @@ sunder_status sunder_i_solver_unite_blocks(sunder_i_solver *solver, sunder_error
 double *sunder_i_solver_load_moves(const sunder_i_solver *solver, const sunder_i_cluster *cluster);
 /* Moves body b, unless it is fixed, to a rounded move, and notes the change. */
 void sunder_i_solver_place(sunder_i_solver *solver, uint32_t b, const double *move);
+/* The first pass: moves all bodies to the places that they prefer, as near as their limits let them, and relates them.
+ * sunder_i_solver_start_of() sets `start` to the move of one body. */
+sunder_status sunder_i_solver_start_preferred(sunder_i_solver *solver, sunder_error *err);
+void sunder_i_solver_start_of(const sunder_i_solver *solver, uint32_t b, double start[2]);
 /* Uses the new moves of the clusters that were worked on: moves their bodies, and notes which features changed and
  * whether their coordinates are exact. */
 sunder_status sunder_i_solver_commit(sunder_i_solver *solver, sunder_error *err);

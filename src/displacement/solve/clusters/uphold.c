@@ -194,7 +194,7 @@ static sunder_status demand_margin(sunder_i_solver *s, const sunder_i_relation *
 
 static double cost_of(const sunder_i_solver *s, uint32_t b)
 {
-    return sunder_i_move_cost(&s->model.body[b], s->model.move + 2 * (size_t)b);
+    return sunder_i_move_cost(&s->model, b, s->model.move + 2 * (size_t)b);
 }
 
 /* Pins body i or j to its original place: the one that can move; if both can, the one with the cheaper move, unless

@@ -29,7 +29,7 @@ static void find_blocking(sunder_i_search *s, sunder_i_cluster *cluster)
     for (size_t k = s->own; k < s->n; k++) s->away[k] = sunder_i_may_move(&s->model->body[s->body[k]]);
     const double cost = sunder_i_search_cost(s, s->t);
     for (uint32_t i = 0; i < cluster->n && !s->failed; i++) {
-        const double *t = s->t + 2 * i, square = t[0] * t[0] + t[1] * t[1];
+        const double square = sunder_i_search_stray_square(s, i, s->t);
         double place[2];
         if (!(s->mass[i] > 0) || !(square > COSTLY * cost * 2 * s->mass[i])) continue;
         if (sunder_i_search_free_body(s, i, NEARER * sqrt(square), place)) add_blocking(s, cluster, i, place);

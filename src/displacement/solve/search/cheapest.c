@@ -1,9 +1,10 @@
 /* Is a solution the cheapest of all, whatever the sides?
  *
  * Let some constraints n.u >= d be such that every solution that costs at most C keeps them, f forces on them, x the
- * moves that these cause, and V = sum f d - sum w |x|^2, the value of the dual. The cost of any moves t is V plus that
- * of t - x plus sum f (n.u - d), and no term of the sum is negative for a solution. So if a pair with the relative move
- * u, inverse masses m and force f has a solution that costs at most C, u lies in the disc
+ * moves that these cause, and V = sum f d - sum w |x|^2, the value of the dual; all moves count from the preferred ones
+ * here. The cost of any moves t is V plus that of t - x plus sum f (n.u - d), and no term of the sum is negative for a
+ * solution. So if a pair with the relative move u, inverse masses m and force f has a solution that costs at most C, u
+ * lies in the disc
  *     |u - x_u|^2 + 2 m f (n.u - d) <= 2 m (C - V),   and n.u >= d.
  * If the obstacles of their pieces cover all of that part which lies before another line, every such solution keeps to
  * the other side of it; with that constraint V grows, and the discs shrink. It begins without constraints, x = 0 and
@@ -334,7 +335,7 @@ static bool solve_bound(bounding *b)
     for (size_t k = 0, n = 0; k < b->n; k++) {
         acting *a = &b->acting[k];
         a->force = a->d > -INFINITY ? p->constraint[n++].force : 0;
-        if (a->force > 0) b->least += a->force * a->d;
+        if (a->force > 0) b->least += a->force * (a->d - sunder_i_stretch(a->constraint, b->s->preferred));
     }
     return true;
 }
@@ -363,11 +364,12 @@ static double find_left(sunder_i_search *s, double enough)
     const size_t room = s->program.n < MOST_FORCED ? s->program.n : MOST_FORCED;
     if (b.cost == 0) return 0;
     b.acting = sunder_i_alloc(room, sizeof *b.acting);
-    b.program = (sunder_i_quadratic){.bodies = s->n, .mass = s->mass};
+    b.program = (sunder_i_quadratic){.bodies = s->n, .mass = s->mass, .preferred = s->program.preferred};
     b.program.constraint = sunder_i_alloc(room, sizeof *b.program.constraint);
     b.program.t = sunder_i_calloc(2 * s->n, sizeof *b.program.t);
     const bool ok = b.acting && b.program.constraint && b.program.t;
     if (!ok) s->failed = true;
+    if (ok) memcpy(b.program.t, s->preferred, 2 * s->n * sizeof *b.program.t);
     const double left = ok && find_acting(&b) ? raise_bound(&b, enough) : 1;
     sunder_i_free_all(b.about.edge, b.acting, b.program.constraint, b.program.t);
     s->steps = steps;

@@ -59,9 +59,9 @@ sunder_status sunder_i_cluster_solve(const sunder_i_model *model, sunder_i_clust
 /* May a search need the united shape of the body, in whatever cluster it is? The members of other bodies need not be
  * united. */
 bool sunder_i_cluster_may_want_shape(const sunder_i_model *model, uint32_t body);
-/* Finds the free places of one body among all others, where these stand now, nearest to its original place first: at
- * most `most`, within `limit` of it. No margin is kept, so a place may be exactly as wide as the body. False if memory
- * is out, or the run was stopped. */
+/* Finds the free places of one body among all others, where these stand now, nearest to the place that it prefers
+ * first: at most `most`, within `limit` of it. No margin is kept, so a place may be exactly as wide as the body. False
+ * if memory is out, or the run was stopped. */
 bool sunder_i_cluster_free_places(const sunder_i_model *model, uint32_t body, double limit, size_t most,
                                   double (*places)[2], size_t *n);
 

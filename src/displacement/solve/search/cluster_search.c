@@ -38,22 +38,28 @@ bool sunder_i_search_init(sunder_i_search *search, const sunder_i_model *model, 
     search->hope = INFINITY;
     search->mass = sunder_i_alloc(n, sizeof *search->mass);
     search->away = sunder_i_calloc(n, sizeof *search->away);
+    search->preferred = sunder_i_calloc(2 * n, sizeof *search->preferred);
     search->t = sunder_i_alloc(2 * n, sizeof *search->t);
     search->next = sunder_i_alloc(2 * n, sizeof *search->next);
     search->box = sunder_i_alloc(4 * n, sizeof *search->box);
     search->order = sunder_i_alloc(n, sizeof *search->order);
     search->place = n > LARGE_CROWD ? sunder_i_alloc(2 * n, sizeof *search->place) : NULL;
     if (n > LARGE_CROWD && !search->place) return false;
-    if (!search->mass || !search->away || !search->t || !search->next || !search->box || !search->order) return false;
+    if (!search->mass || !search->away || !search->preferred || !search->t || !search->next || !search->box ||
+        !search->order)
+        return false;
     for (size_t k = 0; k < n; k++) {
         const sunder_i_body *b = &model->body[body[k]];
         search->mass[k] = sunder_i_may_move(b) ? 0.5 / b->weight : 0;
+        if (search->mass[k] > 0)
+            memcpy(search->preferred + 2 * k, sunder_i_preferred(model, body[k]), 2 * sizeof *move);
         if (search->place) memcpy(search->place + 2 * k, b->origin, 2 * sizeof *search->place);
     }
     search->extent = mean_extent(model, body, n);
     memcpy(search->t, move, 2 * n * sizeof *search->t);
     search->program.bodies = n;
     search->program.mass = search->mass;
+    search->program.preferred = model->preferred ? search->preferred : NULL;
     search->program.t = search->next;
     search->program.place = search->place;
     return true;
@@ -76,8 +82,8 @@ const char *sunder_i_search_check(const sunder_i_search *search)
 
 void sunder_i_search_free(sunder_i_search *search)
 {
-    sunder_i_free_all(search->listed, search->mass, search->place, search->away, search->t, search->next, search->box,
-                      search->order, search->program.constraint, search->old, search->clash);
+    sunder_i_free_all(search->listed, search->mass, search->place, search->away, search->preferred, search->t,
+                      search->next, search->box, search->order, search->program.constraint, search->old, search->clash);
     sunder_i_relaxations_free(&search->relaxations);
     sunder_i_free(search->restored);
     sunder_i_rtree_free(&search->visited);
@@ -89,6 +95,18 @@ void sunder_i_search_free(sunder_i_search *search)
     sunder_i_obstacles_free(&search->obstacles);
     sunder_i_free(search->shifted);
     memset(search, 0, sizeof *search);
+}
+
+double sunder_i_search_stray(const sunder_i_search *search, size_t k)
+{
+    const double *t = search->t + 2 * k, *a = search->preferred + 2 * k;
+    return hypot(t[0] - a[0], t[1] - a[1]);
+}
+
+double sunder_i_search_stray_square(const sunder_i_search *search, size_t k, const double *t)
+{
+    const double *a = search->preferred + 2 * k, x = t[2 * k] - a[0], y = t[2 * k + 1] - a[1];
+    return x * x + y * y;
 }
 
 double sunder_i_search_limit(const sunder_i_search *search, uint32_t i)

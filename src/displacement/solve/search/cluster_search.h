@@ -55,6 +55,7 @@ typedef struct sunder_i_search {
     double *mass;               /* [n] 1 / (2 weight); 0: the body does not move */
     double *place;              /* [2 n] origins of the bodies of a large crowd; otherwise NULL */
     bool *away;                 /* [n] ignored while room is looked for */
+    double *preferred;          /* [2 n] the moves that cost nothing; 0 for bodies that do not move */
     double *t;                  /* [2 n] the present moves */
     double *box;                /* [4 n] boxes at the present moves, relative to the first body's origin */
     uint32_t *order;            /* [n] for sweeps over boxes */
@@ -79,8 +80,8 @@ typedef struct sunder_i_search {
     size_t members, member_capacity;
     sunder_i_short_pair *tight; /* [tights] pairs that stand nearer than their full distance, as they were found last */
     size_t tights, tight_capacity;
-    bool fully;        /* what pairs lack is measured by their full distances */
-    bool prices_tight; /* such pairs have a price (tight_pairs.c) */
+    bool fully;                                   /* what pairs lack is measured by their full distances */
+    bool prices_tight;                            /* such pairs have a price (tight_pairs.c) */
     double cap;                                   /* an upper bound of all moves, besides limits; INFINITY: none */
     struct sunder_i_neighbourhood *neighbourhood; /* changes are tried with these bodies alone; NULL: with all; lent */
     sunder_i_rtree visited;   /* boxes of the paths from home, of a large cluster (visited_boxes.c) */
@@ -117,6 +118,9 @@ const char *sunder_i_search_check(const sunder_i_search *search);
 static inline uint64_t sunder_i_search_work(const sunder_i_search *s) { return s->steps + s->program.work; }
 /* The limit of body i's move. */
 double sunder_i_search_limit(const sunder_i_search *search, uint32_t i);
+/* The distance of body k, at its present move, from the one that it prefers; the square of that distance at t. */
+double sunder_i_search_stray(const sunder_i_search *search, size_t k);
+double sunder_i_search_stray_square(const sunder_i_search *search, size_t k, const double *t);
 /* By how much body i exceeds its limit at t; 0 if it exceeds it by at most the slack that limits.c defines. */
 double sunder_i_search_excess(const sunder_i_search *search, uint32_t i, const double *t);
 /* The number of movable bodies. */
@@ -186,8 +190,8 @@ void sunder_i_search_constrain_shortfalls(sunder_i_search *search);
 
 /* ---- layout_cost.c ----------------------------------------------------------------------------------------------- */
 
-/* The cost of the moves t: the sum of weight times squared move, of the springs of rows, and of the prices of pairs
- * that are eased or tight. */
+/* The cost of the moves t: the sum of weight times squared distance from the preferred move, of the springs of rows,
+ * and of the prices of pairs that are eased or tight. */
 double sunder_i_search_cost(sunder_i_search *search, const double *t);
 
 /* ---- visited_boxes.c: where bodies have been --------------------------------------------------------------------- */

@@ -141,6 +141,7 @@ static void add_spring(sunder_i_search *s, const sunder_i_row_link *link, size_t
         sunder_i_constraint c = {.i = end[0],
                                  .j = end[1],
                                  .n = {sign * spring->n[0], sign * spring->n[1]},
+                                 .d = sign * (spring->n[0] * link->side->rest[0] + spring->n[1] * link->side->rest[1]),
                                  .give = 1 / (2 * spring->stiff),
                                  .key = spring_key(s->model, link->side, number, sign)};
         for (int e = 0; e < 2; e++) {

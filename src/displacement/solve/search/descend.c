@@ -197,14 +197,14 @@ static double most_cost(const sunder_i_search *s)
     double cost = 0;
     sunder_i_row_link link;
     for (sunder_i_row_walk walk = {0}; sunder_i_search_next_row(s, &walk, &link);) {
-        const double far = farthest_move(s, link.i) +
+        const double far = farthest_move(s, link.i) + hypot(link.side->rest[0], link.side->rest[1]) +
                            (link.j == SUNDER_I_GROUND ? hypot(link.still[0], link.still[1]) : farthest_move(s, link.j));
         sunder_i_spring spring[2];
         for (size_t k = sunder_i_springs_of(s->model, link.side, spring); k-- > 0;) cost += spring[k].stiff * far * far;
     }
     for (uint32_t k = 0; k < s->n; k++) {
-        const double limit = sunder_i_search_limit(s, k);
-        if (s->mass[k] > 0) cost += limit * limit / (2 * s->mass[k]);
+        const double *a = s->preferred + 2 * k, far = sunder_i_search_limit(s, k) + hypot(a[0], a[1]);
+        if (s->mass[k] > 0) cost += far * far / (2 * s->mass[k]);
     }
     return cost < INFINITY ? cost : 0;
 }

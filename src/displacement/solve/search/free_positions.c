@@ -422,6 +422,13 @@ static bool is_clear_at(void *user, const double place[2])
     return clear;
 }
 
+/* Is the place within the limit of body i, which is not about the place that it prefers? */
+static bool is_within_limit(void *user, const double place[2])
+{
+    const others *all = user;
+    return hypot(place[0], place[1]) <= sunder_i_search_limit(all->search, all->i);
+}
+
 /* Finds free positions of body i within `reach` of `home`, at most `most` of them, the nearest first. Shadows are only
  * added if the first is in one. clear: shadows are added at once, and each position is tested for clashes as it is
  * found, since between two shadows with a common corner there is a ray that is in neither. Returns their number. */
@@ -437,6 +444,9 @@ static size_t find_among(others *all, const double home[2], double reach, bool c
         add_shadows_of_others(all, o, home, reach);
         o->admits = is_clear_at;
         o->user = all;
+    } else if (s->model->preferred) {
+        o->admits = is_within_limit;
+        o->user = all;
     }
     for (int shadows = clear; shadows < 2; shadows++) {
         n = sunder_i_free_places(o, home, reach, spread, most, found, &s->steps, &s->failed);
@@ -448,23 +458,25 @@ static size_t find_among(others *all, const double home[2], double reach, bool c
     return n;
 }
 
-/* Finds the free positions of body i that are nearest to its original one, at most `most`. The distance searched grows
- * until it reaches `limit`, or exceeds `all`. clear: as in find_among(). Returns the number of positions found. */
+/* Finds the free positions of body i that are nearest to the one it prefers, at most `most`. The distance searched
+ * grows until it reaches `limit`, or exceeds `all`. clear: as in find_among(). Returns the number of positions found.
+ * */
 static size_t find_free_places(sunder_i_search *s, uint32_t i, double limit, double all, bool clear, size_t most,
                                double (*places)[2])
 {
     const sunder_i_body *p = &s->model->body[s->body[i]];
-    const double home[2] = {0, 0}, now = hypot(s->t[2 * i], s->t[2 * i + 1]);
+    const double *to = s->preferred + 2 * i, now = sunder_i_search_stray(s, i), off = hypot(to[0], to[1]);
     for (double reach = 2 * s->gap + sunder_i_max(now, BODY_REACH * box_extent(p->box));; reach *= BODY_GROWTH) {
         if (reach > limit) reach = limit;
         others about = {.search = s, .i = i};
-        const double r = reach + s->gap, box[4] = {p->box[0] - r, p->box[1] - r, p->box[2] + r, p->box[3] + r};
+        const double r = reach + s->gap + off, box[4] = {p->box[0] - r, p->box[1] - r, p->box[2] + r, p->box[3] + r};
         if (!find_others(s, p, box, &about.foreign) || !sunder_i_search_find_about(s, i, r)) s->failed = true;
-        const size_t found = s->failed ? 0 : find_among(&about, home, reach, clear, most, places);
+        const size_t found = s->failed ? 0 : find_among(&about, to, reach, clear, most, places);
         sunder_i_free(about.foreign.item);
         if (!sunder_i_look()) s->failed = true;
         if (found || s->failed) return s->failed ? 0 : found;
-        if (reach >= limit || reach > all || !(reach > 0) || (clear && sunder_i_search_is_enclosed(s, i, reach)))
+        if (reach >= limit || reach > all || !(reach > 0) ||
+            (clear && off == 0 && sunder_i_search_is_enclosed(s, i, reach)))
             return 0;
     }
 }
@@ -478,8 +490,7 @@ static double beyond_all(const sunder_i_search *s, uint32_t i)
 
 bool sunder_i_search_free_body(sunder_i_search *search, uint32_t i, double limit, double place[2])
 {
-    const double now = hypot(search->t[2 * i], search->t[2 * i + 1]),
-                 size = box_extent(search->model->body[search->body[i]].box);
+    const double now = sunder_i_search_stray(search, i), size = box_extent(search->model->body[search->body[i]].box);
     double all = beyond_all(search, i);
     if (!search->model->rules.jumps)
         all = sunder_i_min(all, now + FARTHEST_LEAP * (sunder_i_min(size, search->extent) + search->gap));

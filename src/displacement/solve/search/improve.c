@@ -78,7 +78,7 @@ static double longest_move(const sunder_i_search *s, double *below)
 {
     double longest = 0;
     for (size_t k = 0; k < s->n; k++)
-        if (s->mass[k] > 0) longest = sunder_i_max(longest, hypot(s->t[2 * k], s->t[2 * k + 1]));
+        if (s->mass[k] > 0) longest = sunder_i_max(longest, sunder_i_search_stray(s, k));
     int exponent;
     frexp(longest, &exponent);
     *below = ldexp(1, exponent - 1);
@@ -87,10 +87,12 @@ static double longest_move(const sunder_i_search *s, double *below)
 
 /* Searches once more from the original places, with all moves limited to the power of two below the longest one. If
  * sides contradict each other the search then ends elsewhere, with bodies nearer to home. That helps only if a body has
- * moved much farther than any pair was in conflict by. In a crowd there is no room nearby. */
+ * moved much farther than any pair was in conflict by. In a crowd there is no room nearby. The limit is about the
+ * original places, so it is of no use if bodies prefer others. */
 static void try_near(sunder_i_search *s, double *best, double *cost)
 {
     double below;
+    if (s->model->preferred) return;
     const double longest = longest_move(s, &below);
     for (size_t k = 0; k < s->n; k++)
         if (s->mass[k] > 0) s->t[2 * k] = s->t[2 * k + 1] = 0;
@@ -117,22 +119,22 @@ static bool is_hopeful(const sunder_i_search *s, size_t in_vain)
     return !s->neighbourhood || !(s->program.most_cost > 0) || in_vain < BETTER_IN_VAIN + s->n / BETTER_SHARE;
 }
 
-/* Moves body i to the free position nearest to its origin, and descends. Returns whether the result is cheaper. */
+/* Moves body i to the free position nearest to the one it prefers, and descends. Returns whether the result is cheaper.
+ * */
 static bool try_place(sunder_i_search *s, uint32_t i, double *best, double *cost)
 {
     double place[2];
-    if (!sunder_i_search_free_body(s, i, NEARER_PLACE * hypot(s->t[2 * i], s->t[2 * i + 1]), place)) return false;
+    if (!sunder_i_search_free_body(s, i, NEARER_PLACE * sunder_i_search_stray(s, i), place)) return false;
     memcpy(s->t + 2 * i, place, sizeof place);
     return attempt_about(s, i, i, best, cost);
 }
 
-/* Tries each body, the most expensive first, at the free position nearest to its origin. */
+/* Tries each body, the most expensive first, at the free position nearest to the one it prefers. */
 static void try_places(sunder_i_search *s, rank *order, vain *v, double *best, double *cost)
 {
     size_t n = 0;
     for (uint32_t k = 0; k < s->n; k++) {
-        const double c =
-            s->mass[k] > 0 ? (s->t[2 * k] * s->t[2 * k] + s->t[2 * k + 1] * s->t[2 * k + 1]) / s->mass[k] : 0;
+        const double c = s->mass[k] > 0 ? sunder_i_search_stray_square(s, k, s->t) / s->mass[k] : 0;
         if (c > 0) order[n++] = (rank){c, k, 0};
     }
     qsort(order, n, sizeof *order, by_cost);

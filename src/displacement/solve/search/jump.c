@@ -29,7 +29,8 @@ static uint32_t find_room(sunder_i_search *s, const sunder_i_clash *clash, bool 
     for (int e = 0; e < 2 && !s->failed; e++) {
         const uint32_t i = pair[e];
         if (!(s->mass[i] > 0) || stuck[i]) continue;
-        if (sunder_i_search_free_body(s, i, sunder_i_search_limit(s, i), place)) return i;
+        const double *to = s->preferred + 2 * i, limit = sunder_i_search_limit(s, i) + hypot(to[0], to[1]);
+        if (sunder_i_search_free_body(s, i, limit, place)) return i;
         stuck[i] = true;
     }
     return SUNDER_I_NOBODY;

@@ -31,12 +31,21 @@ static bool has_springs(const sunder_i_search *s)
     return false;
 }
 
+/* Does one of the two prefer another place than its own? */
+static bool has_preferred(const sunder_i_search *s)
+{
+    for (int k = 0; k < 4; k++)
+        if (s->preferred[k] != 0) return true;
+    return false;
+}
+
 /* Is the search about two single features, with nothing to keep but the gap? */
 static bool is_lone_pair(const sunder_i_search *s, const sunder_i_cluster *cluster)
 {
     double reach;
-    return s->n == 2 && !cluster->starts_from_areas && !has_springs(s) && s->mass[0] + s->mass[1] > 0 &&
-           !sunder_i_may_be_inside(&s->model->rules) && only_feature(s->model, s->body[0]) != SUNDER_I_NOBODY &&
+    return s->n == 2 && !cluster->starts_from_areas && !has_springs(s) && !has_preferred(s) &&
+           s->mass[0] + s->mass[1] > 0 && !sunder_i_may_be_inside(&s->model->rules) &&
+           only_feature(s->model, s->body[0]) != SUNDER_I_NOBODY &&
            only_feature(s->model, s->body[1]) != SUNDER_I_NOBODY &&
            !sunder_i_search_is_relaxed(s, s->body[0], s->body[1], &reach);
 }

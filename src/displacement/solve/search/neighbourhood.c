@@ -227,9 +227,9 @@ static double costs_more(const sunder_i_neighbourhood *v, const double *t, const
     double sum = 0;
     for (size_t k = 0; k < v->n; k++) {
         const uint32_t i = v->place[k];
-        const double *to = t + 2 * k, *from = best + 2 * (size_t)i;
-        if (v->moves[i])
-            sum += (to[0] * to[0] + to[1] * to[1] - from[0] * from[0] - from[1] * from[1]) / (2 * v->all->mass[i]);
+        const double *a = v->all->preferred + 2 * (size_t)i, *from = best + 2 * (size_t)i,
+                     to[2] = {t[2 * k] - a[0], t[2 * k + 1] - a[1]}, at[2] = {from[0] - a[0], from[1] - a[1]};
+        if (v->moves[i]) sum += (to[0] * to[0] + to[1] * to[1] - at[0] * at[0] - at[1] * at[1]) / (2 * v->all->mass[i]);
     }
     return sum;
 }

@@ -61,9 +61,8 @@ static bool find_doubtful(reordering *r)
                 deep[c->i] = deep[c->j] = true;
         }
         for (uint32_t k = 0; k < s->n; k++) {
-            const double x = s->t[2 * k], y = s->t[2 * k + 1];
-            if (s->mass[k] > 0 && (deep[k] || hypot(x, y) > LONG * worst))
-                r->doubtful[r->doubtfuls++] = (ranked){-(x * x + y * y) / s->mass[k], k};
+            if (s->mass[k] > 0 && (deep[k] || sunder_i_search_stray(s, k) > LONG * worst))
+                r->doubtful[r->doubtfuls++] = (ranked){-sunder_i_search_stray_square(s, k, s->t) / s->mass[k], k};
         }
         if (r->doubtfuls) qsort(r->doubtful, r->doubtfuls, sizeof *r->doubtful, by_rank);
     }
@@ -137,7 +136,7 @@ static size_t put_back(reordering *r, size_t n)
     sunder_i_search *s = r->search;
     for (size_t k = 0; k < n; k++) {
         s->away[r->out[k]] = true;
-        s->t[2 * r->out[k]] = s->t[2 * r->out[k] + 1] = 0;
+        memcpy(s->t + 2 * r->out[k], s->preferred + 2 * r->out[k], 2 * sizeof *s->t);
     }
     for (size_t k = 0; k < n; k++) {
         const uint32_t i = r->out[k];

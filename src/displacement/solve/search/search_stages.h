@@ -10,7 +10,7 @@
  * and each farther than `spread` from those before. Returns their number. */
 size_t sunder_i_search_free_pair(sunder_i_search *search, uint32_t i, uint32_t j, const double target[2], double spread,
                                  size_t most, double (*places)[2]);
-/* Finds the free position of body i that is nearest to its original one, at most `limit` from it, while all other
+/* Finds the free position of body i that is nearest to the one it prefers, at most `limit` from it, while all other
  * bodies keep their positions. Where jumps are forbidden it looks only a few sizes of the body beyond its present move
  * (FARTHEST_LEAP). False if none was found. */
 bool sunder_i_search_free_body(sunder_i_search *search, uint32_t i, double limit, double place[2]);

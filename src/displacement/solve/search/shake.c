@@ -79,20 +79,20 @@ static size_t list_near(const shaking *k, uint32_t middle)
     return n;
 }
 
-/* Rotates the moves of the n nearest bodies by one random angle, so that a body that was pushed to one side goes to
- * another. */
+/* Rotates the moves of the n nearest bodies from their preferred ones by one random angle, so that a body that was
+ * pushed to one side goes to another. */
 static void turn_moves(shaking *k, size_t n)
 {
     const double angle = 6.283185307179586 * draw_unit(&k->random), c = cos(angle), s = sin(angle);
     for (size_t m = 0; m < n; m++) {
         double *t = k->search.t + 2 * (size_t)k->near[m].at;
-        const double x = c * t[0] - s * t[1];
-        t[1] = s * t[0] + c * t[1];
-        t[0] = x;
+        const double *a = k->search.preferred + 2 * (size_t)k->near[m].at, x = t[0] - a[0], y = t[1] - a[1];
+        t[0] = a[0] + (c * x - s * y);
+        t[1] = a[1] + (s * x + c * y);
     }
 }
 
-/* Moves the n nearest bodies home, or halfway, and up to half their size beside that. */
+/* Moves the n nearest bodies to their preferred places, or halfway, and up to half their size beside that. */
 static void release_bodies(shaking *k, size_t n)
 {
     sunder_i_search *s = &k->search;
@@ -103,7 +103,8 @@ static void release_bodies(shaking *k, size_t n)
         const double size = (body->box[2] - body->box[0] + body->box[3] - body->box[1]) / 2;
         for (size_t c = 0; c < 2; c++) {
             double *t = &s->t[2 * (size_t)at + c];
-            *t = share * *t + (draw_unit(&k->random) - 0.5) * size;
+            const double a = s->preferred[2 * (size_t)at + c];
+            *t = a + (share * (*t - a) + (draw_unit(&k->random) - 0.5) * size);
         }
     }
 }
@@ -128,7 +129,7 @@ static uint32_t draw_payer(shaking *k)
     uint32_t last = 0;
     for (uint32_t i = 0; i < k->n && sum <= at; i++) {
         if (!(s->mass[i] > 0)) continue;
-        sum += (s->t[2 * i] * s->t[2 * i] + s->t[2 * i + 1] * s->t[2 * i + 1]) / (2 * s->mass[i]);
+        sum += sunder_i_search_stray_square(s, i, s->t) / (2 * s->mass[i]);
         last = i;
     }
     return last;

@@ -169,16 +169,16 @@ static void place_lone_body(void *state)
     count_movers(s, &mover);
     double *at = s->t + 2 * (size_t)mover;
     memcpy(best, at, sizeof best);
-    double nearest = x->done ? hypot(at[0], at[1]) * (1 - NO_NEARER) : INFINITY;
+    double nearest = x->done ? sunder_i_search_stray(s, mover) * (1 - NO_NEARER) : INFINITY;
     const size_t n = nearest > 0 ? sunder_i_search_free_body_anywhere(s, mover, nearest, LONE_PLACES, place) : 0;
     for (size_t k = 0; k < n && !s->failed; k++) {
         memcpy(at, place[k], sizeof place[k]);
         s->program.n = 0;
         const bool solved = sunder_i_search_descend(s);
-        if (solved ? !(hypot(at[0], at[1]) < nearest) : x->done || k > 0) continue;
+        if (solved ? !(sunder_i_search_stray(s, mover) < nearest) : x->done || k > 0) continue;
         memcpy(best, at, sizeof best);
         x->done = x->done || solved;
-        if (solved) nearest = hypot(at[0], at[1]);
+        if (solved) nearest = sunder_i_search_stray(s, mover);
     }
     memcpy(at, best, sizeof best);
 }
