@@ -95,7 +95,7 @@ SUNDER_EXPERIMENTAL sunder_status sunder_layer_set_originals(sunder_layer *layer
 /* How features are cut back at barriers. */
 typedef struct sunder_trimming {
     double keep;  /* the least share of its area that a feature keeps, from 0 to 1 */
-    double width; /* >= 0; a disc of this diameter lies in what remains */
+    double width; /* >= 0; a disc of this diameter lies in what remains, and thinner arms that a cut left are cut off */
 } sunder_trimming;
 
 /* Says what sunder_layer_check_moves() demands of features that have smaller shapes: one with a shape that it may not
@@ -116,7 +116,7 @@ SUNDER_EXPERIMENTAL sunder_status sunder_layer_trim(const sunder_layer *layer, c
 typedef struct sunder_inset {
     const double *length; /* [lengths] above 0, ascending: the distances from the outline */
     size_t lengths;
-    double width; /* >= 0; a disc of this diameter lies in what remains */
+    double width; /* >= 0; a disc of this diameter lies in what remains, and thinner arms that a cut left are cut off */
 } sunder_inset;
 
 /* Moves the outlines of blocks in, one rung for each length. The walls between members of a block stay where they are,

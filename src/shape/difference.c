@@ -48,10 +48,7 @@ static double next_double(double v, int ulps)
     return v;
 }
 
-/* Replaces xy, a point near the line from a to b, by the nearest point of doubles on the line or, if there is none
- * near, by the nearest one that is not on its right. So two shapes that share a wall with doubles on it, such as one
- * along an axis, get the same corner. Returns false if there is neither. */
-static bool round_inward(const double *a, const double *b, double xy[2])
+bool sunder_i_round_inward(const double *a, const double *b, double xy[2])
 {
     const sunder_point from = {a[0], a[1]}, to = {b[0], b[1]};
     const double was[2] = {xy[0], xy[1]};
@@ -99,7 +96,8 @@ static bool round_corners(difference *d, const double origin[2], sunder_i_arena 
         if (arena->failed) return false;
         for (int c = 0; c < 2; c++) xy[c] = sunder_i_big_ratio(arena, m.num[c], m.den, m.exponent);
         if (edge < d->shape->vertices)
-            *found = *found && round_inward(d->r.xy + 2 * (size_t)edge, d->r.xy + 2 * (size_t)d->r.next[edge], xy);
+            *found =
+                *found && sunder_i_round_inward(d->r.xy + 2 * (size_t)edge, d->r.xy + 2 * (size_t)d->r.next[edge], xy);
     }
     return !arena->failed;
 }

@@ -20,4 +20,9 @@ typedef struct sunder_i_cuts {
 sunder_status sunder_i_shape_subtract(const sunder_shape *shape, const sunder_i_cuts *cuts, sunder_shape **out,
                                       sunder_error *err);
 
+/* Replaces xy, a point near the line from a to b, by the nearest point of doubles on the line or, if there is none
+ * near, by the nearest one that is not on its right. So two shapes that share a wall with doubles on it, such as one
+ * along an axis, get the same corner. Returns false if there is neither. */
+bool sunder_i_round_inward(const double *a, const double *b, double xy[2]);
+
 #endif

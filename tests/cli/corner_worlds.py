@@ -1,9 +1,10 @@
-"""Corners and slivers of smaller shapes, beside GEOS: corner_worlds.py SUNDER SEED WORLDS.
+"""Corners, slivers and arms of smaller shapes, beside GEOS: corner_worlds.py SUNDER SEED WORLDS.
 
 Each world has a terrace whose walls lean and whose fronts step, or fold, cut by an oblique road, a terrace behind it that is too
 near, and a block around a courtyard with a house in it. Walls meet, or gape by some centimetres; some houses keep their
 shapes. All lines that meet form angles of 35 degrees or more. So what --trim and --inset leave has no corner below 25
-degrees, and nothing as thin as some millimetres."""
+degrees, and nothing as thin as some millimetres. Beside another road are houses with wings along it, and one with an
+acute corner: what is cut so that it is thinner than the least size is not much longer than wide."""
 
 import json
 import math
@@ -13,7 +14,8 @@ import sys
 
 from osgeo import ogr
 from shapely import wkb
-from shapely.geometry import Polygon
+from shapely.geometry import LineString, Point, Polygon
+from shapely.ops import linemerge
 from shapely.affinity import translate
 
 from inset_worlds import write_layers
@@ -23,6 +25,8 @@ GAP, LIMIT, INSETS, TOLERANCE = 3, 0.1, (0.5, 1, 1.5), 0.1
 GAPE = 0.05  # walls gape by less
 LEAST_ANGLE = 25
 THIN, LONG = 0.004, 0.3  # what is thinner is a sliver if it is longer
+LEAST = 3
+LONGER = 1.6  # an arm is longer than its width by this factor, 1.5 in the program
 
 
 def at_height(wall, y):
@@ -77,16 +81,34 @@ def make_yard(rng, at, gape):
     return [[(px + at[0], py + at[1]) for px, py in ring] for ring in shifted + [house]]
 
 
+def make_wings(rng, at):
+    """Houses along the x axis, and a road: one with a wing that another house stands behind, one with a wing between its halves,
+    and one whose back meets the front at an acute angle."""
+    x, y = at
+    w, d, t = rng.uniform(9, 12), rng.uniform(9, 12), rng.uniform(3.1, 4.5)
+    far = w + rng.uniform(8, 14)
+    houses = [[(0, 0), (far, 0), (far, t), (w, t), (w, d), (0, d)], [(w, t), (far, t), (far, d), (w, d)]]
+    x1 = far + 8
+    x2 = x1 + w + rng.uniform(8, 14)
+    houses.append([(x1, 0), (x2 + w, 0), (x2 + w, d), (x2, d), (x2, t), (x1 + w, t), (x1 + w, d - 1), (x1, d - 1)])
+    x3 = x2 + w + 8
+    houses.append([(x3, 0), (x3 + 1.7 * d, 0), (x3, d)])
+    front, slope = rng.uniform(-0.5, 1), rng.uniform(-0.02, 0.02)
+    road = [(-20, front - slope * 20), (x3 + 50, front + slope * (x3 + 50))]
+    return [[(px + x, py + y) for px, py in ring] for ring in houses], [(px + x, py + y) for px, py in road]
+
+
 def make_world(rng, at):
-    """Returns houses and a road, turned."""
+    """Returns houses and roads, turned."""
     gape, angle = rng.choice([0, 0.8 * GAPE]), rng.choice([0, rng.uniform(0.1, 3)])
     front = rng.choice([make_terrace, make_terrace, make_folded])(rng, gape)
     top = max(y for ring in front for _, y in ring) + rng.uniform(0.5, 2)
     behind = [[(x, y + top) for x, y in ring] for ring in make_terrace(rng, gape)]
     houses = front + behind + make_yard(rng, (0, 45), gape)
     slope, middle = rng.choice([-1, 1]) * rng.uniform(0.05, 0.12), rng.uniform(-2, 1)
-    road = [(-60, middle - slope * 80), (120, middle + slope * 100)]
-    return [turned(ring, angle, at) for ring in houses], turned(road, angle, at)
+    wings, lane = make_wings(rng, (-20, 120))
+    roads = [[(-60, middle - slope * 80), (120, middle + slope * 100)], lane]
+    return [[turned(ring, angle, at) for ring in lines] for lines in (houses + wings, roads)]
 
 
 def corner_angles(ring):
@@ -113,6 +135,25 @@ def longest_sliver(shape):
     return max((part.length / 2 for part in getattr(rest, "geoms", [rest]) if not part.is_empty), default=0)
 
 
+def longest_arm(shape, given):
+    """The greatest length, as a multiple of the width, of what the discs in a shape leave uncovered between walls that are not
+    those of the shape as given, but for an end. Both are measured from the chords of the arcs at which it begins."""
+    opened = shape.buffer(1e-6 - LEAST / 2, resolution=32).buffer(LEAST / 2, resolution=32)
+    rest, longest = shape.difference(opened.buffer(1e-4)), 0
+    for part in getattr(rest, "geoms", [rest]):
+        if part.area < 0.01:
+            continue
+        mouth = opened.boundary.intersection(part.buffer(2e-4))
+        mouth = linemerge(mouth) if mouth.geom_type != "LineString" else mouth
+        chords = [LineString([arc.coords[0], arc.coords[-1]]) for arc in getattr(mouth, "geoms", [mouth]) if arc.length > 1e-2]
+        width = min(chord.length for chord in chords)
+        made = part.boundary.difference(opened.boundary.buffer(1e-3)).difference(given.boundary.buffer(1e-3)).length
+        length = max(min(chord.distance(Point(p)) for chord in chords) for p in part.exterior.coords)
+        if length > LEAST / 4 and made > 1.1 * width:
+            longest = max(longest, length / width)
+    return longest
+
+
 def demand_whole(row, shape):
     """Fails if a shape has a needle or a sliver."""
     sharp, where = min((turn for ring in rings_of(shape) for turn in corner_angles(ring)), default=(180, None))
@@ -127,14 +168,14 @@ def main():
     rng = random.Random(seed)
     houses, roads = [], []
     for k in range(worlds):
-        own, road = make_world(rng, (1000.0 * k, 5e6 + 700.0 * (k % 7)))
+        own, lanes = make_world(rng, (1000.0 * k, 5e6 + 700.0 * (k % 7)))
         houses += own
-        roads.append(road)
+        roads += lanes
     for ring in houses:
         demand_whole("as made", Polygon(ring))
     write_layers(houses, roads)
     rules = ["--gap", str(GAP), "--max-shift", str(LIMIT), "--rows", "no", "--touch-tolerance", str(TOLERANCE), "--trim",
-             "--trim-keep", "0.3", "--min-size", "3", "--inset", ",".join(map(str, INSETS)), "--rigid-where", "n % 9 = 4",
+             "--trim-keep", "0.3", "--min-size", str(LEAST), "--inset", ",".join(map(str, INSETS)), "--rigid-where", "n % 9 = 4",
              "--crossed", "trim", "--barrier", "inset_roads.gpkg,width-field=w,gap=0.5"]
     run = [sunder, "separate", "inset_houses.gpkg", "inset_o.gpkg", "--overwrite", "--hide", "--hide-weight", "1", "-q"]
     subprocess.run(run + rules + ["--stats", "inset.json"], check=True)
@@ -147,6 +188,8 @@ def main():
         shape = translate(wkb.loads(bytes(item.GetGeometryRef().ExportToWkb())), -row["sunder_dx"], -row["sunder_dy"])
         counted[row["sunder_lvl"]] += 1
         demand_whole(row, shape)
+        if row["sunder_lvl"] and longest_arm(shape, Polygon(houses[row["n"]])) > LONGER:
+            fail(f"{row}: an arm {longest_arm(shape, Polygon(houses[row['n']])):.3g} times as long as wide: {shape.wkt}")
     if min(counted[:4]) < worlds / 4:
         fail(f"too few houses became smaller: {counted}")
     demand_kept(sunder, "inset_houses", "inset_o", rules)

@@ -4,7 +4,7 @@ program may be off by a hair.
     trim     the shape keeps its distance from barriers: hiding.py
     inset    no strip along a side of the block's outline meets it, and no triangle between strips where the outline turns outwards; its
              corners are on walls of the shape before, or as near to a side as the length says, or nearer than twice that to a place where the
-             outline turns outwards; a wall that two members share is cut at one place
+             outline turns outwards; a wall that two members share is cut at one place, except by the cut that ends an arm
     scaled   the shape as given, scaled about some point; of a feature in no block with others
     square   a square along the longest edge of the shape as given
 """
@@ -91,7 +91,14 @@ class Rungs:
             for k, p in enumerate(ring):
                 along = [g for g in walls if is_near(p, [g], hair) for q in (ring[k - 1], ring[k + 1 - len(ring)])
                          if not near(p, q, 8 * hair) and is_on_line(q, g, 4 * hair) and is_on_wall((p, q), own, hair)]
-                demand(not along or any(near(p, q, 4 * hair) for q in corners), "the wall of", fid, "and", other, "is no longer shared")
+                demand(not along or any(near(p, q, 4 * hair) for q in corners) or self.ends_arm(ring, k, own, hair),
+                       "the wall of", fid, "and", other, "is no longer shared")
+
+    def ends_arm(self, ring, k, own, hair):
+        """Is corner k an end of a cut through the shape `own` that is no longer than the least size?"""
+        most = self.problem.lattice(self.problem.options.min_size or 0) * (1 + Fraction(1, 64))
+        cuts = [(ring[k], q) for q in (ring[k - 1], ring[k + 1 - len(ring)]) if dot(vector(ring[k], q), vector(ring[k], q)) <= most * most]
+        return any(not is_on_wall(e, own, hair) for e in cuts)
 
     # ---- Scaled shapes, and squares
 

@@ -128,7 +128,7 @@ OPTIONS = (
     Option("--inset", TEXT, LAYERS, "Move outlines in where there is no room",
            "Lengths, the least first, such as 1,2: the outline of a feature, or of its block, may be moved in by them. Empty: none."),
     Option("--min-size", LENGTH, LAYERS, "Least size of what remains of a feature",
-           "The diameter of a disc that fits into it."),
+           "The diameter of a disc that fits into it; arms and horns that a cut leaves thinner are cut off."),
     Option("--enlarge", FLAG, LAYERS, "First make features larger that are below the least size",
            "Blocks as one. Needs the least size.", False),
     Option("--symbol-size", LENGTH, LAYERS, "Side of a square that a feature may become where there is no room",

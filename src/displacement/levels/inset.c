@@ -170,6 +170,7 @@ static sunder_status inset_feature(const insetter *t, strips *s, size_t f, size_
     sunder_shape_box(before, box);
     if (!list_near(s, box)) return sunder_i_failure_cause(err);
     sunder_status status = sunder_i_shape_subtract(before, &s->near, &shape, err);
+    if (!status && shape) status = sunder_i_cut_arms(t->layer->shape[f], t->disc, t->how->width, &shape, err);
     if (!status && shape) status = sunder_i_level_may_follow(before, shape, t->disc, &may, err);
     if (may) t->out[f * t->how->lengths + level] = shape;
     if (!may) sunder_shape_free(shape);

@@ -24,6 +24,11 @@ void sunder_i_main_direction(const sunder_shape *shape, double u[2]);
  * than corners demand. Fails with SUNDER_ENOMEM or SUNDER_ECANCEL. */
 sunder_status sunder_i_trim_along(const sunder_shape *shape, double keep, double margin, const sunder_shape *disc,
                                   sunder_shape **trimmed, sunder_error *err);
+/* arms_cut.c: replaces a shape that was cut from the one as given by what is left of it without arms that the cut made
+ * thinner than the disc; it lies in the shape but for rounding. NULL: rounding left no valid ring. disc: around the
+ * disc of this diameter; NULL: nothing is too thin. Fails with SUNDER_ENOMEM, SUNDER_ESIZE or SUNDER_ECANCEL. */
+sunder_status sunder_i_cut_arms(const sunder_shape *given, const sunder_shape *disc, double diameter,
+                                sunder_shape **shape, sunder_error *err);
 /* Sets *out to a copy of the shape with its vertices at xy; NULL if it is not valid then. level_blocks.c. Fails with
  * SUNDER_ENOMEM or SUNDER_ESIZE. */
 sunder_status sunder_i_shape_with_corners(const sunder_shape *shape, const double *xy, sunder_shape **out,

@@ -167,9 +167,10 @@ static sunder_status trim_feature(const trimmer *t, zones *z, size_t f, sunder_e
     if (!add_zones(t, z, box, margin)) return sunder_i_failure_cause(err);
     if (z->cuts.n == 0) return SUNDER_OK;
     status = sunder_i_shape_subtract(shape, &z->cuts, &trimmed, err);
-    if (!status && trimmed) status = may_stay(t, shape, trimmed, &may, err);
-    if (!status && may && stands_alone(t, f))
+    if (!status && trimmed && stands_alone(t, f))
         status = sunder_i_trim_along(shape, t->how.keep, margin, t->disc, &trimmed, err);
+    if (!status && trimmed) status = sunder_i_cut_arms(shape, t->disc, t->how.width, &trimmed, err);
+    if (!status && trimmed) status = may_stay(t, shape, trimmed, &may, err);
     if (may && !status)
         t->out[f] = trimmed;
     else
