@@ -169,7 +169,7 @@ typedef struct sunder_hiding_summary {
     size_t clauses, proved; /* the number of clauses, and of those that are proved */
     size_t components;      /* parts of the clauses that have no member in common */
     size_t components_best; /* of them, those in which what is hidden is proved to be the best */
-    size_t rounds;          /* layouts computed */
+    size_t rounds;          /* the greatest number of layouts from which a component got clauses */
     size_t smaller;         /* the number of features with a smaller shape */
     int64_t smaller_cost;   /* the sum of the costs of their levels */
     int64_t smaller_least;  /* a lower bound of it for any choice that hides the same features */
@@ -192,6 +192,23 @@ typedef struct sunder_hiding_class {
 /* Returns the classes that occur in it or in the proved clauses, the most important one first, and sets *n to their
  * number. The report owns them, as all that the functions below return. */
 SUNDER_EXPERIMENTAL const sunder_hiding_class *sunder_report_hiding_classes(const sunder_report *report, size_t *n);
+
+/* What is hidden or smaller in one component of the clauses, and what is proved of it. The members add up over all
+ * components to those of the summary that have their names, but for `rounds`. All of its features belong to one world
+ * (sunder_report_world()). */
+typedef struct sunder_hiding_component {
+    size_t feature; /* the least number of its features */
+    size_t clauses, proved, forced, rounds, smaller;
+    int64_t smaller_cost, smaller_least;
+    size_t class, classes; /* its classes in sunder_report_component_classes(): the first, and their number */
+    bool best;
+} sunder_hiding_component;
+/* Returns the components, in the order of their first features, and sets *n to their number. */
+SUNDER_EXPERIMENTAL const sunder_hiding_component *sunder_report_hiding_components(const sunder_report *report,
+                                                                                   size_t *n);
+/* Returns what is hidden in each component by class, in the order of the components, and sets *n to the number of all
+ * entries. */
+SUNDER_EXPERIMENTAL const sunder_hiding_class *sunder_report_component_classes(const sunder_report *report, size_t *n);
 
 /* Returns the level of a feature: 0 with its shape as given, k with its smaller shape number k; one more than there are
  * smaller shapes if it is hidden. */

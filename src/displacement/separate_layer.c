@@ -59,7 +59,8 @@ static sunder_status read_layer(sunder_i_solver *s, const sunder_layer *layer, c
     if (status) return status;
     (*report)->summary.pairs_tested = s->start.tested;
     sunder_i_count_relations(&s->model, &s->start, &(*report)->summary.before);
-    return sunder_i_count_thin_overlaps(&s->model, &s->placement, &s->start, *report, err);
+    status = sunder_i_count_thin_overlaps(&s->model, &s->placement, &s->start, *report, err);
+    return status ? status : sunder_i_report_keep_home(*report, &s->model, &s->start, err);
 }
 
 /* Makes s->now equal to the relations of the start. Returns false if memory is out. */
@@ -234,7 +235,8 @@ static sunder_status explain_result(sunder_i_solver *s, const sunder_layer_optio
 }
 
 /* Writes the result to the report, in the internal order of features. */
-static sunder_status fill_report(sunder_i_solver *s, sunder_report *report, sunder_error *err)
+static sunder_status fill_report(sunder_i_solver *s, sunder_i_influence *influence, sunder_report *report,
+                                 sunder_error *err)
 {
     sunder_i_pieces_forget(&s->model, SUNDER_I_PIECES_HELD);
     /* The positions are not needed any more, unless worlds are kept for a layer that is combined of several. */
@@ -243,13 +245,14 @@ static sunder_status fill_report(sunder_i_solver *s, sunder_report *report, sund
     if (status) return status;
     sunder_i_report_moves(report, &s->model);
     const sunder_status added = sunder_i_report_add_tight(report, &s->model, err);
-    return added ? added : sunder_i_report_worlds(report, s, err);
+    return added ? added : sunder_i_report_worlds(report, s, influence, err);
 }
 
 /* Determines the relations of moved features once more, explains the result, and then verifies that no remaining
  * conflict is worse than at the start. That no other pair is in conflict is known from the relations. */
-static sunder_status conclude_report(sunder_i_solver *s, const sunder_layer_options *options, sunder_report *report,
-                                     double began, sunder_error *err)
+static sunder_status conclude_report(sunder_i_solver *s, const sunder_layer_options *options,
+                                     sunder_i_influence *influence, sunder_report *report, double began,
+                                     sunder_error *err)
 {
     const double solved = sunder_i_now();
     sunder_i_solver_forget_clusters(s);
@@ -260,7 +263,7 @@ static sunder_status conclude_report(sunder_i_solver *s, const sunder_layer_opti
     const double explained = sunder_i_now();
     if (!status) status = sunder_i_solver_is_upheld(s, &report->summary.verified, err);
     const double verified = sunder_i_now();
-    if (!status) status = fill_report(s, report, err);
+    if (!status) status = fill_report(s, influence, report, err);
     if (status) return status;
     report->summary.seconds_solve = solved - began;
     report->summary.seconds_verify = (related - solved) + (verified - explained);
@@ -302,34 +305,39 @@ static sunder_status lay_out_again(sunder_i_solver *s, const sunder_layer *layer
     return find_moves(s, layer, options, hidden, report, err);
 }
 
+/* Lists the conflicts of a layout, and notes what influenced each other in it. */
+static sunder_status look_at_layout(sunder_i_solver *s, sunder_i_hiding *hiding, sunder_report *report,
+                                    sunder_error *err)
+{
+    const sunder_status status = find_reasons(s, report, err);
+    if (status || !s->model.rules.keep_worlds) return status;
+    return sunder_i_influence_add(&hiding->influence, s, report, err);
+}
+
 /* Lays the features out with the present choice, and lists the conflicts. */
 static sunder_status try_choice(sunder_i_solver *s, const sunder_layer *lowered, const sunder_layer_options *options,
                                 sunder_i_hiding *hiding, sunder_report **report, sunder_error *err)
 {
     sunder_i_hiding_take_levels(hiding);
     const sunder_status status = lay_out_again(s, lowered, options, hiding->hidden, report, err);
-    return status ? status : find_reasons(s, *report, err);
+    return status ? status : look_at_layout(s, hiding, *report, err);
 }
 
-/* Shows hidden features again that are in no conflict at their places in the last layout, as long as a layout with them
- * has no more conflicts than the one before. */
+/* Shows hidden features again that are in no conflict at their places in the last layout, except in worlds where more
+ * conflicts would remain with them. */
 static sunder_status show_fitting(sunder_i_solver *s, const sunder_layer *lowered, const sunder_layer_options *options,
                                   sunder_i_hiding *hiding, sunder_report **report, sunder_error *err)
 {
-    const size_t n = hiding->layer->n;
-    uint32_t *before = sunder_i_alloc(n, sizeof *before);
-    sunder_status status = before ? SUNDER_OK : sunder_i_failure_cause(err);
+    sunder_status status = SUNDER_OK;
     for (bool any = true; any && !status;) {
-        const size_t conflicts = sunder_i_hiding_conflicts(*report);
-        if (n) memcpy(before, hiding->level, n * sizeof *before);
-        status = sunder_i_hiding_unhide(hiding, &s->model, &s->placement, s->layer.number, &any, err);
+        bool again = false;
+        status = sunder_i_hiding_note_conflicts(hiding, &s->model, *report, err);
+        if (!status) status = sunder_i_hiding_unhide(hiding, &s->model, &s->placement, s->layer.number, &any, err);
         if (!status && any) status = try_choice(s, lowered, options, hiding, report, err);
-        if (status || sunder_i_hiding_conflicts(*report) <= conflicts) continue;
-        if (n) memcpy(hiding->level, before, n * sizeof *before);
-        status = try_choice(s, lowered, options, hiding, report, err);
-        any = false;
+        if (!status && any)
+            status = sunder_i_hiding_hide_again(hiding, &s->model, s->layer.number, *report, &again, err);
+        if (!status && again) status = try_choice(s, lowered, options, hiding, report, err);
     }
-    sunder_i_free(before);
     return status;
 }
 
@@ -340,7 +348,8 @@ static sunder_status lay_out_visible(sunder_i_solver *s, const sunder_layer *lay
                                      sunder_error *err)
 {
     sunder_layer_options thorough = *options, quick;
-    thorough.drop_proofs = false; /* clauses need all of them */
+    thorough.drop_proofs = false;                                 /* clauses need all of them */
+    thorough.keep_worlds = options->keep_worlds || layer->hiding; /* what is shown again is decided by worlds */
     quick = thorough;
     quick.effort = 0;
     if (quick.full_gap <= quick.gap) quick.ease = 0; /* easing changes no verdict */
@@ -355,12 +364,13 @@ static sunder_status lay_out_visible(sunder_i_solver *s, const sunder_layer *lay
         else
             sunder_i_report_forget_conflicts(*report);
         s->model.rules.effort = hiding->step == SUNDER_I_HIDING_QUICK ? 0 : options->effort;
-        if (!status) status = find_reasons(s, *report, err);
+        if (!status) status = look_at_layout(s, hiding, *report, err);
         if (!status) status = sunder_i_hiding_learn(hiding, &s->model, s->layer.number, *report, err);
     }
     if (!status && layer->hiding) status = show_fitting(s, lowered, &thorough, hiding, report, err);
     if (status) return status;
     sunder_i_report_forget_conflicts(*report);
+    s->model.rules.keep_worlds = options->keep_worlds;
     s->model.rules.drop_proofs = (*report)->stripped = options->drop_proofs;
     return SUNDER_OK;
 }
@@ -376,7 +386,7 @@ static sunder_status separate_layer(sunder_i_solver *s, const sunder_layer *laye
         return sunder_i_fail(err, SUNDER_EARG, "worlds and trees cannot be kept if features have preferred places");
     sunder_status status = may_lower ? lay_out_visible(s, layer, options, &hiding, &lowered, report, err)
                                      : find_moves(s, layer, options, NULL, report, err);
-    if (!status) status = conclude_report(s, options, *report, began, err);
+    if (!status) status = conclude_report(s, options, &hiding.influence, *report, began, err);
     if (!status && may_lower) status = sunder_i_hiding_report(&hiding, *report, err);
     const sunder_i_rules rules = s->model.rules;
     if (!status) status = renumber_report(s, *report, err);

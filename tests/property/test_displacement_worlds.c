@@ -6,13 +6,15 @@
  * The same holds for neighbours in rows: a part that contains the place that decides on the neighbours of a feature
  * gives it the same ones as the whole layer.
  *
+ * Features of every second layer may be hidden or have smaller shapes; then the layer is laid out several times, and
+ * components of clauses belong to worlds.
+ *
  * Layers are fields of slanted boxes, most of them separate, some with fixed ones, limits, blocks, and barriers: roads
  * across the whole layer, and ponds. */
 #include "polyset.h"
 #include "random.h"
 #include "run_layer.h"
-#include "sunder_parts.h"
-#include "sunder_proof.h"
+#include "sunder_hiding.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -24,7 +26,7 @@
 
 #include <cmocka.h>
 
-enum { MOST = 160, FIELDS = 200, BARRIERS = 4, BENDS = 5 };
+enum { MOST = 160, FIELDS = 200, BARRIERS = 4, BENDS = 5, LEVELS = 2 };
 
 typedef struct field {
     sunder_feature feature[MOST];
@@ -32,6 +34,10 @@ typedef struct field {
     sunder_barrier barrier[BARRIERS]; /* every part contains all of them */
     double road[BARRIERS][2 * BENDS];
     size_t bends, barriers;
+    bool hides, shrinks;
+    sunder_hiding_cost cost[MOST];
+    sunder_level level[MOST][LEVELS];
+    size_t levels[MOST];
     sunder_layer_options options;
     double width;
 } field;
@@ -111,13 +117,46 @@ static void add_barriers(field *f, rng *r)
     while (f->barriers < n) add_barrier(f, r);
 }
 
-static sunder_report *separate_beside(const field *f, const sunder_feature *feature, size_t n)
+/* Draws what it costs to hide features, some of them never, and squares in the middle of some of them. */
+static void draw_hiding(field *f, rng *r)
 {
-    if (!f->barriers) return run_separate(feature, n, &f->options);
+    f->hides = rng_once_in(r, 2);
+    f->shrinks = f->hides ? rng_once_in(r, 2) : rng_once_in(r, 6);
+    for (size_t k = 0; k < f->n; k++) {
+        f->cost[k] = (sunder_hiding_cost){(uint32_t)rng_int(r, 0, 3), rng_int(r, 1, 5)};
+        f->levels[k] = 0;
+        if (!f->shrinks || rng_once_in(r, 3)) continue;
+        double box[4];
+        int64_t cost = 0;
+        sunder_shape_box(f->feature[k].shape, box);
+        for (double size = 2; f->levels[k] < LEVELS; size /= 2) {
+            sunder_shape *square =
+                polyset_turned_rectangle((box[0] + box[2] - size) / 2, (box[1] + box[3] - size) / 2, size, size, 0);
+            f->level[k][f->levels[k]++] = (sunder_level){square, cost += rng_int(r, 0, 100)};
+        }
+    }
+}
+
+/* Separates n features of the field with these numbers, or all. */
+static sunder_report *separate_beside(const field *f, const size_t *number, size_t n)
+{
+    static sunder_feature feature[MOST];
+    static sunder_hiding_cost cost[MOST];
+    static sunder_level level[MOST * LEVELS];
+    size_t end[MOST], levels = 0;
+    for (size_t k = 0; k < n; k++) {
+        const size_t i = number ? number[k] : k;
+        feature[k] = f->feature[i];
+        cost[k] = f->cost[i];
+        for (size_t m = 0; m < f->levels[i]; m++) level[levels++] = f->level[i][m];
+        end[k] = levels;
+    }
     sunder_layer *layer = NULL;
     sunder_report *report = NULL;
     sunder_error err;
     if (sunder_layer_new(feature, n, &layer, &err) || sunder_layer_set_barriers(layer, f->barrier, f->barriers, &err) ||
+        (f->hides && sunder_layer_set_hiding(layer, cost, &err)) ||
+        (f->shrinks && sunder_layer_set_levels(layer, level, end, &err)) ||
         sunder_layer_separate(layer, &f->options, &report, &err))
         fail_msg("%s", err.message);
     sunder_layer_free(layer);
@@ -127,7 +166,10 @@ static sunder_report *separate_beside(const field *f, const sunder_feature *feat
 static void clear(field *f)
 {
     for (size_t k = 0; k < f->barriers; k++) sunder_shape_free((sunder_shape *)f->barrier[k].geometry.shape);
-    for (size_t k = 0; k < f->n; k++) sunder_shape_free((sunder_shape *)f->feature[k].shape);
+    for (size_t k = 0; k < f->n; k++) {
+        sunder_shape_free((sunder_shape *)f->feature[k].shape);
+        for (size_t m = 0; m < f->levels[k]; m++) sunder_shape_free((sunder_shape *)f->level[k][m].shape);
+    }
 }
 
 static bool meets(const double a[4], const double b[4])
@@ -185,8 +227,49 @@ static void demand_same_bounds(const sunder_world_bound *one, const sunder_world
     for (int k = 0; k < 2; k++) assert_true(sunder_total_below(&a[k]) == sunder_total_below(&b[k]));
 }
 
-static void demand_same_world(const sunder_report *whole, const sunder_report *part, size_t world, const size_t *from,
-                              size_t parts)
+/* Compares the components of clauses one by one, with their classes, and returns their number. */
+static size_t demand_same_components(const sunder_report *whole, const sunder_report *part, size_t world,
+                                     size_t of_part, const size_t *from)
+{
+    size_t n, m, classes, found = 0, j = 0;
+    const sunder_hiding_component *c = sunder_report_hiding_components(whole, &n),
+                                  *d = sunder_report_hiding_components(part, &m);
+    const sunder_hiding_class *p = sunder_report_component_classes(whole, &classes),
+                              *q = sunder_report_component_classes(part, &classes);
+    for (size_t k = 0; k < n; k++) {
+        if (sunder_report_world(whole, c[k].feature) != world) continue;
+        while (j < m && sunder_report_world(part, d[j].feature) != of_part) j++;
+        assert_true(j < m);
+        sunder_hiding_component other = d[j++];
+        other.feature = from[other.feature];
+        const size_t first = other.class;
+        other.class = c[k].class;
+        assert_int_equal(c[k].feature, other.feature);
+        assert_int_equal(c[k].clauses, other.clauses);
+        assert_int_equal(c[k].proved, other.proved);
+        assert_int_equal(c[k].forced, other.forced);
+        assert_int_equal(c[k].rounds, other.rounds);
+        assert_int_equal(c[k].smaller, other.smaller);
+        assert_int_equal(c[k].smaller_cost, other.smaller_cost);
+        assert_int_equal(c[k].smaller_least, other.smaller_least);
+        assert_int_equal(c[k].best, other.best);
+        assert_int_equal(c[k].classes, other.classes);
+        for (size_t i = 0; i < other.classes; i++) {
+            assert_int_equal(p[c[k].class + i].hierarchy, q[first + i].hierarchy);
+            assert_int_equal(p[c[k].class + i].hidden, q[first + i].hidden);
+            assert_int_equal(p[c[k].class + i].weight, q[first + i].weight);
+            assert_int_equal(p[c[k].class + i].least, q[first + i].least);
+        }
+        found++;
+    }
+    while (j < m && sunder_report_world(part, d[j].feature) != of_part) j++;
+    assert_int_equal(j, m);
+    return found;
+}
+
+/* Returns the number of its components of clauses. */
+static size_t demand_same_world(const sunder_report *whole, const sunder_report *part, size_t world, const size_t *from,
+                                size_t parts)
 {
     size_t n, m, bounds;
     const sunder_world *all = sunder_report_worlds(whole, &n), *w = &all[world];
@@ -212,8 +295,10 @@ static void demand_same_world(const sunder_report *whole, const sunder_report *p
         assert_true(t[0] == u[0] && t[1] == u[1]);
         assert_int_equal(sunder_report_status(whole, from[k]), sunder_report_status(part, k));
         assert_int_equal(sunder_report_rounded(whole, from[k]), sunder_report_rounded(part, k));
+        assert_int_equal(sunder_report_level(whole, from[k]), sunder_report_level(part, k));
     }
     demand_same_conflicts(whole, part, world, of_part, from);
+    return demand_same_components(whole, part, world, of_part, from);
 }
 
 /* Does the part contain all features that meet the box? */
@@ -309,22 +394,21 @@ static size_t look_at_rows(const field *f, const sunder_report *whole, const sun
 }
 
 /* Compares what a part of the field reports about the worlds that are complete in it. Returns their number. */
-static size_t look_at_part(const field *f, const sunder_report *whole, const bool *there, size_t *neighbours)
+static size_t look_at_part(const field *f, const sunder_report *whole, const bool *there, size_t *neighbours,
+                           size_t *components)
 {
-    static sunder_feature chosen[MOST];
     size_t from[MOST + BARRIERS], n = 0, worlds, same = 0;
     for (size_t k = 0; k < f->n; k++) {
         if (!there[k]) continue;
-        chosen[n] = f->feature[k];
         from[n++] = k;
     }
     if (n == f->n) return 0; /* the whole layer, so there is nothing to compare */
     for (size_t k = 0; k < f->barriers; k++) from[n + k] = f->n + k;
-    sunder_report *part = separate_beside(f, chosen, n);
+    sunder_report *part = separate_beside(f, from, n);
     const sunder_world *w = sunder_report_worlds(part, &worlds);
     for (size_t k = 0; k < worlds; k++) {
         if (!is_complete(f, there, part, k) || is_joined(whole, part, k, from, n)) continue;
-        demand_same_world(whole, part, sunder_report_world(whole, from[w[k].first]), from, n);
+        *components += demand_same_world(whole, part, sunder_report_world(whole, from[w[k].first]), from, n);
         same++;
     }
     *neighbours += look_at_rows(f, whole, part, there, from, n);
@@ -341,7 +425,7 @@ static void add_blocks(const field *f, bool *there)
 }
 
 /* Tests the part that meets everything that a world looked at, and the part that meets a random box. */
-static size_t look_at_parts(const field *f, rng *r, const sunder_report *whole, size_t *neighbours)
+static size_t look_at_parts(const field *f, rng *r, const sunder_report *whole, size_t *neighbours, size_t *components)
 {
     size_t worlds, footprints, same = 0;
     const sunder_world *w = sunder_report_worlds(whole, &worlds);
@@ -358,7 +442,7 @@ static size_t look_at_parts(const field *f, rng *r, const sunder_report *whole, 
                 there[i] = meets(box, p[w[k].footprint + m].seen);
         }
         add_blocks(f, there);
-        same += look_at_part(f, whole, there, neighbours);
+        same += look_at_part(f, whole, there, neighbours, components);
     }
     return same;
 }
@@ -441,24 +525,26 @@ static void test_worlds(void **state)
 {
     (void)state;
     static field f;
-    size_t seen = 0, asked = 0, neighbours = 0;
+    size_t seen = 0, asked = 0, neighbours = 0, components = 0;
     for (size_t number = 0; number < test_count(FIELDS); number++) {
         rng r = rng_start(test_seed(), 7100 + number);
         size_t worlds;
         draw_options(&f, &r);
         lay_out(&f, &r);
         add_barriers(&f, &r);
-        sunder_report *whole = separate_beside(&f, f.feature, f.n);
+        draw_hiding(&f, &r);
+        sunder_report *whole = separate_beside(&f, NULL, f.n);
         demand_sums(&f, whole);
         sunder_report_worlds(whole, &worlds);
-        asked += look_at_parts(&f, &r, whole, &neighbours);
+        asked += look_at_parts(&f, &r, whole, &neighbours, &components);
         seen += worlds;
         sunder_report_free(whole);
         clear(&f);
     }
-    print_message("%zu worlds, found %zu times in parts of their layers; %zu neighbours in rows\n", seen, asked,
-                  neighbours);
-    assert_true(asked > 0 && neighbours > 0);
+    print_message(
+        "%zu worlds, found %zu times in parts of their layers; %zu neighbours in rows, %zu components of clauses\n",
+        seen, asked, neighbours, components);
+    assert_true(asked > 0 && neighbours > 0 && components > 0);
 }
 
 int main(void)

@@ -42,11 +42,13 @@ sunder_status sunder_i_hiding_begin(const sunder_layer *layer, sunder_i_hiding *
     hiding->level = sunder_i_calloc(layer->n, sizeof *hiding->level);
     hiding->hidden = sunder_i_calloc(layer->n, sizeof *hiding->hidden);
     hiding->times = sunder_i_calloc(layer->n, sizeof *hiding->times);
+    hiding->stays = sunder_i_calloc(layer->n, sizeof *hiding->stays);
     if (layer->level_end) {
         hiding->shape = sunder_i_alloc(layer->n, sizeof *hiding->shape);
         if (hiding->shape && layer->n) memcpy(hiding->shape, layer->shape, layer->n * sizeof *hiding->shape);
     }
-    const bool ok = hiding->level && hiding->hidden && hiding->times && (hiding->shape || !layer->level_end);
+    const bool ok =
+        hiding->level && hiding->hidden && hiding->times && hiding->stays && (hiding->shape || !layer->level_end);
     hiding->smallest = layer->level_end && layer->hiding;
     if (ok) sunder_i_hiding_take_levels(hiding);
     return ok ? SUNDER_OK : sunder_i_failure_cause(err);
@@ -55,7 +57,9 @@ sunder_status sunder_i_hiding_begin(const sunder_layer *layer, sunder_i_hiding *
 void sunder_i_hiding_free(sunder_i_hiding *hiding)
 {
     for (size_t k = 0; k < hiding->sources; k++) sunder_i_proof_free(hiding->source[k].proof);
-    sunder_i_free_all(hiding->level, hiding->hidden, hiding->times, (void *)hiding->shape, hiding->source);
+    sunder_i_free_all(hiding->level, hiding->hidden, hiding->times, (void *)hiding->shape, hiding->source,
+                      hiding->stays, hiding->shown.item, hiding->conflict.item);
+    sunder_i_influence_free(&hiding->influence);
     sunder_i_clauses_free(&hiding->clauses);
     memset(hiding, 0, sizeof *hiding);
 }
@@ -129,7 +133,7 @@ static bool note_source(sunder_i_hiding *h, const uint32_t *number, sunder_repor
     const sunder_conflict *c = &report->conflict[k];
     if (!sunder_i_reserve(&h->source, &h->source_room, h->sources + 1, sizeof *h->source)) return false;
     sunder_i_clause_source *source = &h->source[h->sources++];
-    *source = (sunder_i_clause_source){first, number[c->a], number[c->b], c->reason, c->crowded, NULL};
+    *source = (sunder_i_clause_source){first, number[c->a], number[c->b], c->reason, c->crowded, h->choices, NULL};
     if (!h->keep_proofs || !proved || !report->proof || !report->proof[k]) return true;
     source->proof = report->proof[k];
     report->proof[k] = NULL;
@@ -152,15 +156,30 @@ static bool may_shrink(const sunder_i_hiding *h, uint32_t thing)
     return h->level[thing] < n;
 }
 
+/* Notes that the features that may get greater levels influenced each other and all other things of the set. */
+static void note_influence(sunder_i_hiding *h, const sunder_i_model *model, const uint32_t *number,
+                           const sunder_i_list *set)
+{
+    uint32_t first = UINT32_MAX;
+    for (size_t m = 0; m < set->n && h->influence.root; m++) {
+        if (!may_rise(h, number[set->item[m]])) continue;
+        sunder_i_influence_lower(&h->influence, model, set->item[m]);
+        if (first == UINT32_MAX) first = set->item[m];
+    }
+    for (size_t m = 0; m < set->n && first != UINT32_MAX; m++)
+        sunder_i_influence_meet(&h->influence, model, first, set->item[m]);
+}
+
 /* Makes a clause of these things with their present levels, because of conflict k, and adds it, if at least one of them
  * may get a greater one. */
-static bool add_clause(sunder_i_hiding *h, const uint32_t *number, sunder_report *report, size_t k, sunder_i_list *set,
-                       bool proved, bool *added)
+static bool add_clause(sunder_i_hiding *h, const sunder_i_model *model, const uint32_t *number, sunder_report *report,
+                       size_t k, sunder_i_list *set, bool proved, bool *added)
 {
     sunder_i_list item = {0}, level = {0};
     const size_t first = h->clauses.items;
     size_t members = 0;
     bool ok = true;
+    note_influence(h, model, number, set);
     for (size_t m = 0; m < set->n; m++) set->item[m] = number[set->item[m]];
     set->n = sunder_i_set_make(set->item, set->n);
     for (int others = 0; others < 2; others++) {
@@ -180,9 +199,6 @@ static bool add_clause(sunder_i_hiding *h, const uint32_t *number, sunder_report
     return ok;
 }
 
-/* Is a conflict of the layout, and not of a pair that may stay as it is? */
-static bool counts(const sunder_conflict *c) { return !c->inside_block && c->reason != SUNDER_REASON_KEPT; }
-
 /* Adds the clauses of the conflicts that are proved. */
 static bool add_proved(sunder_i_hiding *h, const sunder_i_model *model, const uint32_t *number, sunder_report *report,
                        bool *any)
@@ -191,9 +207,9 @@ static bool add_proved(sunder_i_hiding *h, const sunder_i_model *model, const ui
     bool ok = true;
     for (size_t k = 0; k < report->conflicts && ok; k++) {
         bool proved, added = false;
-        if (!counts(&report->conflict[k])) continue;
+        if (!sunder_i_hiding_counts(&report->conflict[k])) continue;
         ok = list_things(model, report, k, &proved, &set);
-        if (ok && proved) ok = add_clause(h, number, report, k, &set, true, &added);
+        if (ok && proved) ok = add_clause(h, model, number, report, k, &set, true, &added);
         *any = *any || added;
     }
     sunder_i_free(set.item);
@@ -211,14 +227,15 @@ static bool add_tentative(sunder_i_hiding *h, const sunder_i_model *model, const
     if (ok) sunder_i_union_init(parent, model->things);
     for (size_t k = 0; k < report->conflicts && ok; k++) {
         const sunder_conflict *c = &report->conflict[k];
-        if (counts(c) && !sunder_i_is_barrier(model, (uint32_t)c->b))
+        if (sunder_i_hiding_counts(c) && !sunder_i_is_barrier(model, (uint32_t)c->b))
             sunder_i_union_join(parent, (uint32_t)c->a, (uint32_t)c->b);
     }
     for (size_t k = 0; k < report->conflicts && ok; k++) {
         bool proved, added = false;
         const uint32_t root = sunder_i_union_find(parent, (uint32_t)report->conflict[k].a);
-        if (!counts(&report->conflict[k]) || done[root]) continue;
-        ok = list_things(model, report, k, &proved, &set) && add_clause(h, number, report, k, &set, proved, &added);
+        if (!sunder_i_hiding_counts(&report->conflict[k]) || done[root]) continue;
+        ok = list_things(model, report, k, &proved, &set) &&
+             add_clause(h, model, number, report, k, &set, proved, &added);
         done[root] = ok && added;
         *any = *any || done[root];
     }
@@ -238,29 +255,27 @@ static bool add_shrinking(sunder_i_hiding *h, const sunder_i_model *model, const
     for (size_t k = 0; k < report->conflicts && ok; k++) {
         const sunder_conflict *c = &report->conflict[k];
         bool proved, added = false;
-        if (!counts(c) || !(may_shrink(h, number[c->a]) || may_shrink(h, number[c->b]))) continue;
-        ok = list_things(model, report, k, &proved, &set) && add_clause(h, number, report, k, &set, proved, &added);
+        if (!sunder_i_hiding_counts(c) || !(may_shrink(h, number[c->a]) || may_shrink(h, number[c->b]))) continue;
+        ok = list_things(model, report, k, &proved, &set) &&
+             add_clause(h, model, number, report, k, &set, proved, &added);
         *any = *any || added;
     }
     sunder_i_free(set.item);
     return ok;
 }
 
-size_t sunder_i_hiding_conflicts(const sunder_report *report)
+static bool has_conflicts(const sunder_report *report)
 {
-    size_t n = 0;
-    for (size_t k = 0; k < report->conflicts; k++) n += counts(&report->conflict[k]);
-    return n;
+    for (size_t k = 0; k < report->conflicts; k++)
+        if (sunder_i_hiding_counts(&report->conflict[k])) return true;
+    return false;
 }
 
-/* What follows a layout from which nothing was learnt. With smallest shapes the conflicts decide what is hidden; the
- * layout itself is of no use. */
+/* What follows a layout from which nothing was learnt. A step teaches nothing about conflicts that it does not find, so
+ * that each part of the layer takes the same steps, whatever remains in conflict elsewhere. */
 static sunder_i_hiding_step step_after(const sunder_i_hiding *h, bool conflicts)
 {
-    if (h->step == SUNDER_I_HIDING_QUICK) {
-        if (conflicts) return SUNDER_I_HIDING_PROVE;
-        return h->smallest ? SUNDER_I_HIDING_END : SUNDER_I_HIDING_THOROUGH;
-    }
+    if (h->step == SUNDER_I_HIDING_QUICK) return conflicts ? SUNDER_I_HIDING_PROVE : SUNDER_I_HIDING_THOROUGH;
     return h->step == SUNDER_I_HIDING_PROVE ? SUNDER_I_HIDING_THOROUGH : SUNDER_I_HIDING_END;
 }
 
@@ -269,6 +284,7 @@ static sunder_status choose_levels(sunder_i_hiding *h, sunder_error *err)
     sunder_i_cover_result result = {.level = h->level};
     const sunder_status status =
         sunder_i_cover_find(&h->clauses, SUNDER_I_COVER_ALL, h->layer, COVER_EFFORT, &result, err);
+    h->choices++;
     sunder_i_hiding_take_levels(h);
     return status;
 }
@@ -277,13 +293,12 @@ sunder_status sunder_i_hiding_learn(sunder_i_hiding *hiding, const sunder_i_mode
                                     sunder_report *report, sunder_error *err)
 {
     bool learnt = false;
-    hiding->rounds += hiding->step != SUNDER_I_HIDING_PROVE;
     bool ok = add_proved(hiding, model, number, report, &learnt);
     if (ok && !learnt && !hiding->smallest) ok = add_shrinking(hiding, model, number, report, &learnt);
     if (ok && !learnt && hiding->step == SUNDER_I_HIDING_THOROUGH)
         ok = add_tentative(hiding, model, number, report, &learnt);
     if (!ok) return sunder_i_failure_cause(err);
-    hiding->step = learnt ? SUNDER_I_HIDING_QUICK : step_after(hiding, sunder_i_hiding_conflicts(report) > 0);
+    hiding->step = learnt ? SUNDER_I_HIDING_QUICK : step_after(hiding, has_conflicts(report));
     if (learnt) return choose_levels(hiding, err);
     if (hiding->step != SUNDER_I_HIDING_END || !hiding->smallest) return SUNDER_OK;
     hiding->smallest = false;

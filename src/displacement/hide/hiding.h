@@ -3,7 +3,7 @@
 #define SUNDER_I_HIDING_H
 
 #include "displacement/hide/cover.h"
-#include "displacement/report/report.h"
+#include "displacement/report/influence.h"
 
 /* The conflict that a clause was made of, by the caller's numbers. */
 typedef struct sunder_i_clause_source {
@@ -11,6 +11,7 @@ typedef struct sunder_i_clause_source {
     size_t a, b;
     sunder_reason reason;
     bool crowded;
+    size_t choice;       /* the number of choices before it was found */
     sunder_proof *proof; /* NULL if there is none, or if proofs are not kept */
 } sunder_i_clause_source;
 
@@ -31,11 +32,15 @@ typedef struct sunder_i_hiding {
     sunder_i_clauses clauses;
     sunder_i_clause_source *source; /* [sources] ascending by `first` */
     size_t sources, source_room;
-    bool keep_proofs;          /* of the clauses */
-    uint32_t *times;           /* [n] the number of clauses that each was in since shapes are as given */
-    bool smallest;             /* everything that is not hidden has its smallest shape */
-    sunder_i_hiding_step step; /* the next one */
-    size_t rounds;             /* the number of layouts computed */
+    bool keep_proofs;             /* of the clauses */
+    uint32_t *times;              /* [n] the number of clauses that each was in since shapes are as given */
+    bool smallest;                /* everything that is not hidden has its smallest shape */
+    sunder_i_hiding_step step;    /* the next one */
+    size_t choices;               /* the number of choices so far */
+    bool *stays;                  /* [n] hidden features that are not shown again, since more conflicts remained then */
+    sunder_i_list shown;          /* those that were shown again last ... */
+    sunder_i_list conflict;       /* ... and a body of each conflict of the layout before */
+    sunder_i_influence influence; /* of all layouts, if the models record reads */
 } sunder_i_hiding;
 
 /* Begins with nothing hidden. The caller frees it, also after a failure. */
@@ -47,8 +52,6 @@ void sunder_i_hiding_free(sunder_i_hiding *hiding);
  * report  the proofs that are kept are taken from it */
 sunder_status sunder_i_hiding_learn(sunder_i_hiding *hiding, const sunder_i_model *model, const uint32_t *number,
                                     sunder_report *report, sunder_error *err);
-/* Returns the number of conflicts of a layout that something could be hidden for. */
-size_t sunder_i_hiding_conflicts(const sunder_report *report);
 /* Takes over the levels: what is hidden, and the shapes of all others. */
 void sunder_i_hiding_take_levels(sunder_i_hiding *h);
 
@@ -59,6 +62,18 @@ void sunder_i_hiding_take_levels(sunder_i_hiding *h);
 sunder_status sunder_i_hiding_unhide(sunder_i_hiding *hiding, const sunder_i_model *model,
                                      const sunder_i_placement *placement, const uint32_t *number, bool *any,
                                      sunder_error *err);
+/* Lists the conflicts of a layout, to be compared with the next one. */
+sunder_status sunder_i_hiding_note_conflicts(sunder_i_hiding *hiding, const sunder_i_model *model,
+                                             const sunder_report *report, sunder_error *err);
+/* Hides again, for good, what was shown last in worlds of this layout with more conflicts than were noted. Sets *any to
+ * whether there is such. */
+sunder_status sunder_i_hiding_hide_again(sunder_i_hiding *hiding, const sunder_i_model *model, const uint32_t *number,
+                                         const sunder_report *report, bool *any, sunder_error *err);
+/* Is the conflict one of the layout, and not of a pair that may stay as it is? */
+static inline bool sunder_i_hiding_counts(const sunder_conflict *conflict)
+{
+    return !conflict->inside_block && conflict->reason != SUNDER_REASON_KEPT;
+}
 
 /* ---- hiding_report.c --------------------------------------------------------------------------------------------- */
 

@@ -10,12 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A difference of hidden weight in one class of one component. */
-typedef struct difference {
-    uint32_t root, hierarchy;
-    int64_t weight;
-} difference;
-
 /* The components of all clauses: the least member of each feature's. Features in no clause are alone. */
 static uint32_t *find_roots(const sunder_i_hiding *h)
 {
@@ -32,37 +26,47 @@ static uint32_t *find_roots(const sunder_i_hiding *h)
     return parent;
 }
 
-/* What is known of the component that has its root at a feature. */
-enum { NO_COMPONENT, BEST, UNPROVED };
+/* What a component hides in one class, or the bound of it. */
+typedef struct entry {
+    uint32_t root, hierarchy;
+    size_t hidden;
+    int64_t weight, least;
+} entry;
 
-/* Lists what is hidden beyond the bound, by component and class. list: room for all hidden features and weights of
- * bounds. Returns their number. */
-static size_t list_differences(const sunder_i_hiding *h, const uint32_t *root, const sunder_i_hiding_bound *bound,
-                               difference *list)
+/* The components while they are made. */
+typedef struct listing {
+    const sunder_i_hiding *h;
+    uint32_t *root; /* [features] the least feature of the component */
+    size_t *at;     /* [features] of roots: the number of the component; SIZE_MAX: the feature is in no clause */
+    sunder_report *report;
+} listing;
+
+static sunder_hiding_component *component_of(const listing *l, size_t feature)
 {
+    return &l->report->component[l->at[l->root[feature]]];
+}
+
+/* Makes an entry for each component, in the order of their first features. Returns false if memory is out. */
+static bool begin_components(listing *l)
+{
+    const sunder_i_hiding *h = l->h;
     size_t n = 0;
-    for (uint32_t f = 0; f < h->layer->n; f++)
-        if (h->hidden[f]) list[n++] = (difference){root[f], h->layer->hiding[f].hierarchy, h->layer->hiding[f].weight};
-    for (size_t t = 0; t < bound->trees; t++)
-        for (size_t k = 0; k < bound->tree[t].bounds; k++) {
-            const sunder_hiding_share *of = &bound->share[bound->tree[t].bound + k];
-            list[n++] = (difference){root[bound->tree[t].feature], of->hierarchy, -of->weight};
-        }
-    return n;
+    l->root = find_roots(h);
+    l->at = sunder_i_alloc(h->layer->n, sizeof *l->at);
+    if (!l->root || !l->at) return false;
+    for (size_t f = 0; f < h->layer->n; f++) l->at[f] = SIZE_MAX;
+    for (size_t k = 0; k < h->clauses.n; k++) l->at[l->root[h->clauses.item[h->clauses.clause[k].first]]] = 0;
+    for (size_t f = 0; f < h->layer->n; f++)
+        if (l->at[f] == 0) l->at[f] = n++;
+    sunder_hiding_component *component = sunder_i_calloc(n, sizeof *component);
+    for (size_t f = 0; f < h->layer->n && component; f++)
+        if (l->at[f] != SIZE_MAX) component[l->at[f]] = (sunder_hiding_component){.feature = f, .best = true};
+    l->report->component = component;
+    l->report->hiding.components = n;
+    return component;
 }
 
-/* Finds the components, and those in which the choice hides as much as the bound says, in each class. */
-static void mark_components(const sunder_i_hiding *h, const uint32_t *root, difference *list, size_t n,
-                            unsigned char *state)
-{
-    for (size_t k = 0; k < h->clauses.n; k++) state[root[h->clauses.item[h->clauses.clause[k].first]]] = BEST;
-    if (n) qsort(list, n, sizeof *list, sunder_i_by_id_pair);
-    for (size_t k = 0, end; k < n; k = end) {
-        int64_t sum = 0;
-        for (end = k; end < n && sunder_i_by_id_pair(&list[end], &list[k]) == 0; end++) sum += list[end].weight;
-        if (sum != 0) state[list[k].root] = UNPROVED;
-    }
-}
+/* ---- What is hidden, by component and class ---------------------------------------------------------------------- */
 
 static int by_class(const void *a, const void *b)
 {
@@ -70,33 +74,69 @@ static int by_class(const void *a, const void *b)
     return p->hierarchy < q->hierarchy ? -1 : p->hierarchy > q->hierarchy;
 }
 
-/* Sums up what is hidden, and the bound, by class. Returns false if memory is out. */
-static bool report_classes(const difference *list, size_t n, sunder_report *report)
+/* Lists what is hidden, and the bounds. list: room for all hidden features and weights of bounds. Returns their
+ * number. */
+static size_t list_entries(const listing *l, const sunder_i_hiding_bound *bound, entry *list)
 {
-    sunder_hiding_class *class = sunder_i_alloc(n, sizeof *class);
+    const sunder_i_hiding *h = l->h;
+    size_t n = 0;
+    for (uint32_t f = 0; f < h->layer->n; f++)
+        if (h->hidden[f])
+            list[n++] = (entry){l->root[f], h->layer->hiding[f].hierarchy, 1, h->layer->hiding[f].weight, 0};
+    for (size_t t = 0; t < bound->trees; t++)
+        for (size_t k = 0; k < bound->tree[t].bounds; k++) {
+            const sunder_hiding_share *of = &bound->share[bound->tree[t].bound + k];
+            list[n++] = (entry){l->root[bound->tree[t].feature], of->hierarchy, 0, 0, of->weight};
+        }
+    if (n) qsort(list, n, sizeof *list, sunder_i_by_id_pair);
+    return n;
+}
+
+/* Sums up the entries of each component by class. It is proved to be the best if it hides as much as the bound says, in
+ * each class. Returns false if memory is out. */
+static bool sum_entries(const listing *l, const entry *list, size_t n)
+{
+    sunder_report *report = l->report;
+    sunder_hiding_class *class = report->component_class = sunder_i_alloc(n, sizeof *class);
     size_t classes = 0;
     if (!class) return false;
-    for (size_t k = 0; k < n; k++) {
-        const int64_t weight = list[k].weight;
-        class[k] = weight > 0 ? (sunder_hiding_class){list[k].hierarchy, 1, weight, 0}
-                              : (sunder_hiding_class){list[k].hierarchy, 0, 0, -weight};
+    for (size_t k = 0, end; k < n; k = end) {
+        sunder_hiding_component *c = &report->component[l->at[list[k].root]];
+        sunder_hiding_class *of = &class[classes];
+        *of = (sunder_hiding_class){.hierarchy = list[k].hierarchy};
+        for (end = k; end < n && sunder_i_by_id_pair(&list[end], &list[k]) == 0; end++) {
+            of->hidden += list[end].hidden;
+            of->weight += list[end].weight;
+            of->least += list[end].least;
+        }
+        if (c->classes++ == 0) c->class = classes;
+        c->best = c->best && of->weight == of->least;
+        classes++;
     }
+    report->component_classes = classes;
+    return true;
+}
+
+/* Sums up the classes of all components. Returns false if memory is out. */
+static bool report_classes(sunder_report *report)
+{
+    const size_t n = report->component_classes;
+    sunder_hiding_class *class = report->hiding_class = sunder_i_alloc(n, sizeof *class);
+    if (!class) return false;
+    if (n) memcpy(class, report->component_class, n * sizeof *class);
     if (n) qsort(class, n, sizeof *class, by_class);
     for (size_t k = 0; k < n; k++) {
-        if (classes == 0 || class[classes - 1].hierarchy != class[k].hierarchy) {
-            class[classes++] = class[k];
-            continue;
-        }
-        class[classes - 1].hidden += class[k].hidden;
-        class[classes - 1].weight += class[k].weight;
-        class[classes - 1].least += class[k].least;
-    }
-    report->hiding_class = class;
-    report->hiding_classes = classes;
-    for (size_t k = 0; k < classes; k++) {
+        sunder_hiding_class *last = report->hiding_classes ? &class[report->hiding_classes - 1] : NULL;
         report->hiding.hidden += class[k].hidden;
         report->hiding.weight += class[k].weight;
         report->hiding.least += class[k].least;
+        if (!last || last->hierarchy != class[k].hierarchy) {
+            class[report->hiding_classes++] = class[k];
+            continue;
+        }
+        last->hidden += class[k].hidden;
+        last->weight += class[k].weight;
+        last->least += class[k].least;
     }
     return true;
 }
@@ -147,36 +187,39 @@ static bool report_clauses(sunder_i_hiding *h, sunder_report *report)
     return true;
 }
 
-/* Fills in the counts of clauses and components. */
-static void count_clauses(const sunder_i_hiding *h, const unsigned char *state, sunder_hiding_summary *out)
+/* A choice after which clauses of a component were found. */
+typedef struct choice {
+    uint32_t component;
+    size_t number;
+} choice;
+
+static int by_choice(const void *a, const void *b)
 {
-    for (size_t f = 0; f < h->layer->n; f++) {
-        out->components += state[f] != NO_COMPONENT;
-        out->components_best += state[f] == BEST;
-    }
-    for (size_t k = 0; k < h->clauses.n; k++) {
-        out->proved += h->clauses.clause[k].proved;
-        out->forced += h->clauses.clause[k].proved && h->clauses.clause[k].n == 1;
-    }
-    out->clauses = h->clauses.n;
-    out->rounds = h->rounds;
+    const choice *p = a, *q = b;
+    if (p->component != q->component) return p->component < q->component ? -1 : 1;
+    return p->number < q->number ? -1 : p->number > q->number;
 }
 
-/* Compares the choice with the bound. Returns false if memory is out. */
-static bool compare_with_bound(const sunder_i_hiding *h, const sunder_i_hiding_bound *bound, sunder_report *report)
+/* Counts the clauses of each component, and after how many choices they were found. Returns false if memory is out. */
+static bool count_clauses(const listing *l)
 {
-    uint32_t *root = find_roots(h);
-    unsigned char *state = sunder_i_calloc(h->layer->n, sizeof *state);
-    difference *list = sunder_i_alloc(h->layer->n + bound->shares, sizeof *list);
-    bool ok = root && state && list;
-    if (ok) {
-        const size_t n = list_differences(h, root, bound, list);
-        mark_components(h, root, list, n, state);
-        count_clauses(h, state, &report->hiding);
-        ok = report_classes(list, n, report);
+    const sunder_i_hiding *h = l->h;
+    choice *list = sunder_i_alloc(h->clauses.n, sizeof *list);
+    if (!list) return false;
+    for (size_t k = 0; k < h->clauses.n; k++) {
+        const sunder_i_clause *clause = &h->clauses.clause[k];
+        const sunder_i_clause_source *source = bsearch(&clause->first, h->source, h->sources, sizeof *source, by_first);
+        sunder_hiding_component *c = component_of(l, h->clauses.item[clause->first]);
+        c->clauses++;
+        c->proved += clause->proved;
+        c->forced += clause->proved && clause->n == 1;
+        list[k] = (choice){(uint32_t)(c - l->report->component), source->choice};
     }
-    sunder_i_free_all(root, state, list);
-    return ok;
+    if (h->clauses.n) qsort(list, h->clauses.n, sizeof *list, by_choice);
+    for (size_t k = 0; k < h->clauses.n; k++)
+        l->report->component[list[k].component].rounds += k == 0 || by_choice(&list[k - 1], &list[k]) != 0;
+    sunder_i_free(list);
+    return true;
 }
 
 /* Returns the cost of a level with which the feature is not hidden. */
@@ -188,21 +231,56 @@ static int64_t cost_of(const sunder_layer *layer, size_t feature, uint32_t level
 }
 
 /* Sums up what is smaller, and bounds its cost. level: scratch [n]. */
-static sunder_status report_smaller(const sunder_i_hiding *h, uint32_t *level, sunder_hiding_summary *out,
-                                    sunder_error *err)
+static sunder_status count_smaller(const listing *l, uint32_t *level, sunder_error *err)
 {
+    const sunder_i_hiding *h = l->h;
     const size_t n = h->layer->n;
-    sunder_i_cover_result result = {.level = level};
     if (!h->layer->level_end) return SUNDER_OK;
+    bool *sure = sunder_i_calloc(n, sizeof *sure);
+    sunder_i_cover_result result = {.level = level, .sure = sure};
+    if (!sure) return sunder_i_failure_cause(err);
     if (n) memcpy(level, h->level, n * sizeof *level);
     const sunder_status status =
         sunder_i_cover_find(&h->clauses, SUNDER_I_COVER_SHRINKING, h->layer, COVER_EFFORT, &result, err);
-    const bool exact = result.exact == result.components;
     for (size_t f = 0; f < n && !status; f++) {
-        out->smaller += h->level[f] > 0 && !h->hidden[f];
-        out->smaller_cost += cost_of(h->layer, f, h->level[f]);
-        if (exact) out->smaller_least += cost_of(h->layer, f, level[f]);
+        if (l->at[l->root[f]] == SIZE_MAX) continue;
+        sunder_hiding_component *c = component_of(l, f);
+        c->smaller += h->level[f] > 0 && !h->hidden[f];
+        c->smaller_cost += cost_of(h->layer, f, h->level[f]);
+        if (sure[f]) c->smaller_least += cost_of(h->layer, f, level[f]);
     }
+    sunder_i_free(sure);
+    return status;
+}
+
+/* Adds up the components. */
+static void sum_components(sunder_report *report)
+{
+    sunder_hiding_summary *out = &report->hiding;
+    for (size_t k = 0; k < out->components; k++) {
+        const sunder_hiding_component *c = &report->component[k];
+        out->components_best += c->best;
+        out->clauses += c->clauses;
+        out->proved += c->proved;
+        out->forced += c->forced;
+        out->smaller += c->smaller;
+        out->smaller_cost += c->smaller_cost;
+        out->smaller_least += c->smaller_least;
+        if (c->rounds > out->rounds) out->rounds = c->rounds;
+    }
+}
+
+/* Makes the list of components. level: scratch [n]. */
+static sunder_status report_components(listing *l, const sunder_i_hiding_bound *bound, uint32_t *level,
+                                       sunder_error *err)
+{
+    entry *list = sunder_i_alloc(l->h->layer->n + bound->shares, sizeof *list);
+    bool ok = list && begin_components(l);
+    ok = ok && sum_entries(l, list, list_entries(l, bound, list)) && report_classes(l->report) && count_clauses(l);
+    sunder_i_free(list);
+    const sunder_status status = ok ? count_smaller(l, level, err) : sunder_i_failure_cause(err);
+    if (!status) sum_components(l->report);
+    sunder_i_free_all(l->root, l->at);
     return status;
 }
 
@@ -211,14 +289,14 @@ sunder_status sunder_i_hiding_report(sunder_i_hiding *hiding, sunder_report *rep
     uint32_t *best = sunder_i_alloc(hiding->layer->n, sizeof *best);
     sunder_i_cover_result result = {.level = best};
     sunder_i_hiding_bound bound = {0};
+    listing l = {.h = hiding, .report = report};
     sunder_status status = best ? SUNDER_OK : sunder_i_failure_cause(err);
     if (!status)
         status =
             sunder_i_cover_find(&hiding->clauses, SUNDER_I_COVER_PROVED, hiding->layer, COVER_EFFORT, &result, err);
     if (!status) status = sunder_i_hiding_bound_find(&hiding->clauses, hiding->layer, best, BOUND_EFFORT, &bound, err);
-    if (!status && !(compare_with_bound(hiding, &bound, report) && report_clauses(hiding, report)))
-        status = sunder_i_failure_cause(err);
-    if (!status) status = report_smaller(hiding, best, &report->hiding, err);
+    if (!status) status = report_components(&l, &bound, best, err);
+    if (!status && !report_clauses(hiding, report)) status = sunder_i_failure_cause(err);
     report->hiding_trees =
         (sunder_hiding_trees){bound.tree, bound.node, bound.share, bound.trees, bound.nodes, bound.shares};
     report->level = hiding->level;

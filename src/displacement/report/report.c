@@ -122,15 +122,15 @@ void sunder_report_free(sunder_report *report)
     for (size_t k = 0; report->clause && k < report->hiding.clauses; k++)
         sunder_i_proof_free((sunder_proof *)report->clause[k].proof);
     sunder_i_free_all(report->move, report->status, report->block, report->tight, report->bound_pair, report->clause,
-                      report->clause_number, report->hiding_class, (void *)report->hiding_trees.tree,
-                      (void *)report->hiding_trees.node, (void *)report->hiding_trees.share,
-                      report->clause_level, report->level);
+                      report->clause_number, report->hiding_class, report->component_class, report->component,
+                      (void *)report->hiding_trees.tree, (void *)report->hiding_trees.node,
+                      (void *)report->hiding_trees.share, report->clause_level, report->level);
     for (size_t k = 0; k < report->bound_trees; k++) sunder_i_bound_tree_free(&report->bound_tree[k]);
     sunder_row_list_free(&report->row_list);
     sunder_i_free_all(report->bound_tree, report->push, report->row_pair, report->row_reach, report->world,
                       report->world_of, report->stands, report->inside, report->inexact, report->footprint,
-                      report->world_bound, report->thin, report->proved, report->by_pairs, report->lacking,
-                      report->paying, report);
+                      report->world_bound, report->thin, report->home_pair, report->proved, report->by_pairs,
+                      report->lacking, report->paying, report);
 }
 
 void sunder_i_count(sunder_conflict_counts *counts, const sunder_conflict *conflict)
@@ -227,6 +227,18 @@ const sunder_hiding_class *sunder_report_hiding_classes(const sunder_report *rep
 {
     *n = report->hiding_classes;
     return report->hiding_class;
+}
+
+const sunder_hiding_component *sunder_report_hiding_components(const sunder_report *report, size_t *n)
+{
+    *n = report->hiding.components;
+    return report->component;
+}
+
+const sunder_hiding_class *sunder_report_component_classes(const sunder_report *report, size_t *n)
+{
+    *n = report->component_classes;
+    return report->component_class;
 }
 
 const sunder_hiding_trees *sunder_report_hiding_trees(const sunder_report *report) { return &report->hiding_trees; }

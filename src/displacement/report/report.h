@@ -30,6 +30,19 @@ typedef struct sunder_i_lacking {
     double alone;         /* the least price, whatever place the two have */
 } sunder_i_lacking;
 
+/* What is kept of the layer as given, before features are hidden or become smaller. */
+typedef enum sunder_i_home_fact {
+    SUNDER_I_HOME_MET,      /* two things are in conflict, or one lies in the other and may do so */
+    SUNDER_I_HOME_THIN,     /* they overlap by no more than the rules' `thin` */
+    SUNDER_I_HOME_CONFLICT, /* a conflict that is counted, parts of a barrier combined */
+} sunder_i_home_fact;
+typedef struct sunder_i_home_pair {
+    uint32_t a, b;
+    sunder_i_home_fact fact;
+    sunder_conflict_kind kind; /* of a conflict, and the next */
+    bool inside;               /* it is inside a block */
+} sunder_i_home_pair;
+
 struct sunder_report {
     size_t n;
     double *move;                  /* [2 * n] the moves, x and y alternating */
@@ -55,8 +68,9 @@ struct sunder_report {
     sunder_hiding_summary hiding;
     sunder_clause *clause; /* [hiding.clauses] their members and things are in clause_number */
     size_t *clause_number;
-    sunder_hiding_class *hiding_class;
-    size_t hiding_classes;
+    sunder_hiding_class *hiding_class, *component_class; /* of all; and those of each component */
+    size_t hiding_classes, component_classes;
+    sunder_hiding_component *component; /* [hiding.components] */
     sunder_hiding_trees hiding_trees;
     uint32_t *clause_level; /* the levels of the clauses' members */
     uint32_t *level;        /* [n] in the caller's numbers of features; NULL: none can become smaller */
@@ -73,8 +87,10 @@ struct sunder_report {
     size_t footprints;
     sunder_world_bound *world_bound;
     size_t world_bounds;
-    bool *thin;                /* [relations at the start] whether the pair overlaps by no more than the rules'
-                                * `thin` */
+    bool *thin; /* [relations at the start] whether the pair overlaps by no more than the rules'
+                                * `thin`, until they become part of: */
+    sunder_i_home_pair *home_pair;
+    size_t home_pairs;
     double *proved, *by_pairs; /* [bodies] what is proved of each part, at the part's root, in all and by pairs;
                                 * by_pairs is NULL if all is by pairs */
     sunder_i_lacking *lacking; /* [eased] the eased pairs, sorted by i, then by j */
@@ -319,8 +335,14 @@ sunder_status sunder_i_spread_out(const sunder_i_solver *solver, sunder_i_list *
 
 /* ---- worlds.c ---------------------------------------------------------------------------------------------------- */
 
-/* Determines which parts of the layer did not influence each other, if the rules ask for it. To be called last. */
-sunder_status sunder_i_report_worlds(sunder_report *report, const sunder_i_solver *solver, sunder_error *err);
+/* Keeps what is needed of the relations of the layer as given, if the rules ask for worlds. */
+sunder_status sunder_i_report_keep_home(sunder_report *report, const sunder_i_model *model,
+                                        const sunder_i_relations *start, sunder_error *err);
+typedef struct sunder_i_influence sunder_i_influence;
+/* Determines which parts of the layer did not influence each other, if the rules ask for it. influence: that of earlier
+ * layouts, and the last one is added. To be called last. */
+sunder_status sunder_i_report_worlds(sunder_report *report, const sunder_i_solver *solver,
+                                     sunder_i_influence *influence, sunder_error *err);
 
 /* ---- blockers.c -------------------------------------------------------------------------------------------------- */
 

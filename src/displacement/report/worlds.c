@@ -1,170 +1,20 @@
-/* Determines the worlds of a layer: its parts that did not influence each other.
- *
- * Two bodies belong to the same world if they were ever solved together, if they are in conflict or in contact, or if
- * the solver examined, on behalf of one, a place where the other ever was. If the layer had contained only the bodies
- * of a world and the fixed features near them, every question would have had the same answer, and each body would end
- * where it does. The places examined are recorded as boxes (layer/reads.h): a part of the layer that holds everything
- * that meets the boxes of a world gives the same result for that world as the whole layer. A block is always read as a
- * whole, whichever member was met, because its other end may be fixed. */
+/* Determines the worlds of a layer: its parts that did not influence each other (influence.c). If the layer had
+ * contained only the bodies of a world and the fixed features near them, every question would have had the same answer,
+ * and each body would end where it does: a part of the layer that holds everything that meets the boxes of a world
+ * gives the same result for that world as the whole layer. */
 #include "displacement/layer/resolution.h"
-#include "displacement/report/report.h"
+#include "displacement/report/influence.h"
 
 #include "base/union_find.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* The relative tolerance by which contact may exceed the required distance. */
-#define HAIR 0x1p-16
-
 typedef struct gathering {
     const sunder_i_solver *solver;
     const sunder_i_model *model;
-    double reach;
-    const double (*row_reach)[4]; /* [bodies] sunder_i_rows.reach; NULL: there are no rows */
-    uint32_t *root;               /* [bodies] union-find of bodies that influenced each other */
-    bool *active;                 /* [bodies] the body influenced another, or was influenced */
-    /* [bodies] boxes of each set of root[], at its root: the places read, the places seen, the places where its bodies
-     * stood */
-    double (*read)[4], (*seen)[4], (*wrote)[4];
+    const sunder_i_influence *by;
 } gathering;
-
-static bool is_fixed(const sunder_i_model *model, uint32_t body) { return model->body[body].fixed; }
-
-/* Computes the box of the places where the body stood, from its original to every later position. */
-static void box_of(const sunder_i_model *model, uint32_t body, double box[4])
-{
-    const sunder_i_body *b = &model->body[body];
-    const double *went = model->went + 4 * (size_t)body;
-    sunder_i_box_clear(box);
-    for (uint32_t m = 0; m < b->members; m++) {
-        const uint32_t f = model->member[b->member + m];
-        if (model->present[f]) sunder_i_box_join(box, sunder_i_home_box(model, f));
-    }
-    for (int c = 0; c < 4; c++) box[c] += went[c];
-}
-
-/* Records that bodies i and j influenced each other. A fixed body does not join two sets; but two fixed bodies in
- * conflict with each other belong to a world, too. */
-static void meet_bodies(gathering *g, uint32_t i, uint32_t j)
-{
-    const sunder_i_model *model = g->model;
-    if (is_fixed(model, i) && !is_fixed(model, j)) {
-        meet_bodies(g, j, i);
-        return;
-    }
-    g->active[i] = true;
-    if (sunder_i_is_barrier_body(model, &model->body[j])) return;
-    if (is_fixed(model, j) && !is_fixed(model, i)) {
-        /* Whether the block is fixed may depend on a member at its other end, so all of it is marked as seen. */
-        double box[4];
-        box_of(model, j, box);
-        sunder_i_box_join(g->model->read[i].seen, box);
-        return;
-    }
-    g->active[j] = true;
-    sunder_i_union_join(g->root, i, j);
-}
-
-static void meet_conflicts(gathering *g, const sunder_i_relations *relations)
-{
-    for (size_t k = 0; k < relations->n; k++) {
-        const sunder_i_relation *r = &relations->pair[k];
-        const uint32_t i = g->model->body_of[r->a], j = g->model->body_of[r->b];
-        if (i != j && (sunder_i_is_conflict(r) || r->kept)) meet_bodies(g, i, j);
-    }
-}
-
-/* A pair of bodies that may not move is tight without ever having been solved. */
-static void meet_tight(gathering *g, const sunder_report *report)
-{
-    const uint32_t *body_of = g->model->body_of;
-    for (size_t k = 0; k < report->conflicts; k++) {
-        const sunder_conflict *c = &report->conflict[k];
-        if (c->kind == SUNDER_CONFLICT_TIGHT) meet_bodies(g, body_of[c->a], body_of[c->b]);
-    }
-}
-
-static void meet_groups(gathering *g)
-{
-    const sunder_i_groups *groups = &g->solver->groups;
-    for (size_t k = 0; k < groups->n; k++) {
-        const sunder_i_group *group = &groups->group[k];
-        for (size_t m = 0; m < group->n + group->guests.n; m++) {
-            const uint32_t b = m < group->n ? group->body[m] : group->guests.item[m - group->n];
-            if (!is_fixed(g->model, b)) meet_bodies(g, group->number, b);
-        }
-    }
-    for (size_t k = 0; k < groups->joins; k++) meet_bodies(g, groups->joined[k].a, groups->joined[k].b);
-}
-
-/* ---- Where sets looked, and where they stood --------------------------------------------------------------------- */
-
-/* Adds to what the body read: its neighbours in rows as they stand, and the place that decides which ones they are. */
-static void look_along_rows(gathering *g, uint32_t b)
-{
-    const sunder_i_model *model = g->model;
-    const sunder_i_extras *has = model->body[b].has;
-    const uint32_t at = sunder_i_union_find(g->root, b);
-    if (g->row_reach) sunder_i_box_join(g->seen[at], g->row_reach[b]);
-    for (uint32_t k = has->row_side; k < has->row_side + has->row_sides && !is_fixed(model, b); k++) {
-        double box[4];
-        box_of(model, model->row_side[k].other, box);
-        sunder_i_box_join(g->read[at], box);
-    }
-}
-
-static void find_boxes(gathering *g)
-{
-    for (uint32_t b = 0; b < g->model->bodies; b++) {
-        sunder_i_box_clear(g->read[b]);
-        sunder_i_box_clear(g->seen[b]);
-        sunder_i_box_clear(g->wrote[b]);
-    }
-    for (uint32_t b = 0; b < g->model->bodies; b++) {
-        if (!g->active[b]) continue;
-        const uint32_t at = sunder_i_union_find(g->root, b);
-        double box[4], about[4];
-        box_of(g->model, b, box);
-        sunder_i_box_grow(box, g->reach, about);
-        if (!is_fixed(g->model, b)) sunder_i_box_join(g->wrote[at], box);
-        sunder_i_box_join(g->read[at], about);
-        sunder_i_box_join(g->read[at], g->model->read[b].place);
-        sunder_i_box_join(g->seen[at], g->model->read[b].seen);
-        look_along_rows(g, b);
-    }
-    for (uint32_t b = 0; b < g->model->bodies; b++) {
-        if (!g->active[b] || sunder_i_union_find(g->root, b) != b) continue;
-        /* Whether a block ends here depends on what is next to it, so the box is grown. */
-        sunder_i_box_grow(g->seen[b], g->reach, g->seen[b]);
-        sunder_i_box_join(g->seen[b], g->read[b]);
-    }
-}
-
-/* Copies root[] to world[], and joins there any two sets of bodies if the box of the places that the bodies of one
- * examined (read) meets the box of the places where those of the other stood (wrote). Fixed bodies join nothing. */
-static sunder_status meet_readers(gathering *g, uint32_t *world, sunder_error *err)
-{
-    const size_t n = g->model->bodies;
-    bool *there = sunder_i_calloc(n, sizeof *there);
-    sunder_i_rtree tree = {0};
-    sunder_i_list hits = {0};
-    sunder_status status = there ? SUNDER_OK : sunder_i_failure_cause(err);
-    for (size_t b = 0; b < n && !status; b++) there[b] = g->wrote[b][0] <= g->wrote[b][2];
-    if (!status) status = sunder_i_rtree_build(g->wrote[0], there, n, &tree, err);
-    memcpy(world, g->root, n * sizeof *world);
-    for (uint32_t b = 0; b < n && !status; b++) {
-        if (!there[b]) continue;
-        hits.n = 0;
-        if (!sunder_i_rtree_query(&tree, g->read[b], &hits)) status = sunder_i_failure_cause(err);
-        for (size_t k = 0; k < hits.n && !status; k++)
-            if (!is_fixed(g->model, b) && !is_fixed(g->model, hits.item[k]))
-                sunder_i_union_join(world, b, hits.item[k]);
-    }
-    sunder_i_rtree_free(&tree);
-    sunder_i_free_all(hits.item, there);
-    return status;
-}
 
 /* ---- What is reported -------------------------------------------------------------------------------------------- */
 
@@ -182,7 +32,7 @@ static sunder_status number_worlds(sunder_report *report, const gathering *g, ui
     for (size_t k = 0; k < model->features && !status; k++) {
         const uint32_t body = model->body_of[thing[k]];
         report->world_of[k] = SIZE_MAX;
-        if (!g->active[body]) continue;
+        if (!g->by->active[body]) continue;
         size_t *name = &named[sunder_i_union_find(world, body)];
         if (*name == SIZE_MAX) {
             if (!sunder_i_reserve(&report->world, &report->world_room, report->worlds + 1, sizeof *report->world)) {
@@ -219,19 +69,23 @@ static int by_world(const void *a, const void *b)
     return memcmp(p->read, q->read, sizeof p->read);
 }
 
+static bool is_root(const gathering *g, uint32_t b) { return g->by->active[b] && g->by->root[b] == b; }
+
 static sunder_status list_footprints(sunder_report *report, const gathering *g, sunder_error *err)
 {
     size_t n = 0;
-    for (uint32_t b = 0; b < g->model->bodies; b++) n += g->active[b] && sunder_i_union_find(g->root, b) == b;
+    for (uint32_t b = 0; b < g->model->bodies; b++) n += is_root(g, b);
     report->footprint = sunder_i_alloc(n, sizeof *report->footprint);
     if (!report->footprint) return sunder_i_failure_cause(err);
     for (uint32_t b = 0; b < g->model->bodies; b++) {
-        if (!g->active[b] || sunder_i_union_find(g->root, b) != b) continue;
+        if (!is_root(g, b)) continue;
         sunder_footprint *p = &report->footprint[report->footprints++];
         p->world = world_of_body(report, g, b);
-        memcpy(p->read, g->read[b], sizeof p->read);
-        memcpy(p->seen, g->seen[b], sizeof p->seen);
-        memcpy(p->wrote, g->wrote[b], sizeof p->wrote);
+        memcpy(p->read, g->by->read[b], sizeof p->read);
+        memcpy(p->wrote, g->by->wrote[b], sizeof p->wrote);
+        /* Whether a block ends here depends on what is next to it, so the box is grown. */
+        sunder_i_box_grow(g->by->seen[b], sunder_i_contact_reach(&g->model->rules), p->seen);
+        sunder_i_box_join(p->seen, p->read);
     }
     if (n) qsort(report->footprint, n, sizeof *report->footprint, by_world);
     for (size_t k = n; k-- > 0;) {
@@ -242,30 +96,34 @@ static sunder_status list_footprints(sunder_report *report, const gathering *g, 
     return SUNDER_OK;
 }
 
-/* Counts each conflict in its world. A conflict inside a block without a world is counted with the first of its two
- * features. */
+/* Counts a conflict of the layer as given in its world. One inside a block without a world is counted with the first of
+ * its two features. */
+static void count_home_pair(sunder_report *report, const gathering *g, const sunder_i_home_pair *pair)
+{
+    const sunder_conflict c = {.kind = pair->kind, .inside_block = pair->inside};
+    const size_t w = world_of_pair(report, g, pair->a, pair->b), p = g->solver->layer.number[pair->a],
+                 q = g->solver->layer.number[pair->b];
+    if (pair->fact == SUNDER_I_HOME_THIN)
+        report->world[w].thin++;
+    else if (pair->fact == SUNDER_I_HOME_CONFLICT && w != SIZE_MAX)
+        sunder_i_count(&report->world[w].before, &c);
+    else if (pair->fact == SUNDER_I_HOME_CONFLICT)
+        report->inside[p < q ? p : q]++;
+}
+
+/* Counts each conflict in its world. */
 static sunder_status count_pairs(sunder_report *report, const gathering *g, sunder_error *err)
 {
-    const sunder_i_relations *const list[2] = {&g->solver->start, &g->solver->now};
+    const sunder_i_relations *now = &g->solver->now;
     report->inside = sunder_i_calloc(g->model->features, sizeof *report->inside);
     if (!report->inside) return sunder_i_failure_cause(err);
-    for (int now = 0; now < 2; now++) {
-        for (size_t k = 0; k < list[now]->n;) {
-            sunder_conflict c;
-            uint32_t a, b;
-            if (!sunder_i_next_conflict(g->model, list[now], &k, &a, &b, &c)) continue;
-            const size_t w = world_of_pair(report, g, a, b);
-            if (w != SIZE_MAX) {
-                sunder_i_count(now ? &report->world[w].after : &report->world[w].before, &c);
-            } else if (!now) {
-                const size_t p = g->solver->layer.number[a], q = g->solver->layer.number[b];
-                report->inside[p < q ? p : q]++;
-            }
-        }
-    }
-    for (size_t k = 0; k < g->solver->start.n && report->thin; k++) {
-        const sunder_i_relation *r = &g->solver->start.pair[k];
-        if (report->thin[k]) report->world[world_of_pair(report, g, r->a, r->b)].thin++;
+    for (size_t k = 0; k < report->home_pairs; k++) count_home_pair(report, g, &report->home_pair[k]);
+    for (size_t k = 0; k < now->n;) {
+        sunder_conflict c;
+        uint32_t a, b;
+        if (!sunder_i_next_conflict(g->model, now, &k, &a, &b, &c)) continue;
+        const size_t w = world_of_pair(report, g, a, b);
+        if (w != SIZE_MAX) sunder_i_count(&report->world[w].after, &c);
     }
     return SUNDER_OK;
 }
@@ -323,50 +181,66 @@ static sunder_status keep_each(sunder_report *report, const gathering *g, sunder
     if (!report->inexact || !report->stands) return sunder_i_failure_cause(err);
     for (size_t f = 0; f < model->features; f++) {
         report->inexact[g->solver->layer.number[f]] = model->inexact[f];
-        report->stands[g->solver->layer.number[f]] = is_fixed(model, model->body_of[f]);
+        report->stands[g->solver->layer.number[f]] = sunder_i_influence_stands(g->by, model->body_of[f]);
     }
-    if (!g->row_reach) return SUNDER_OK;
+    if (!g->solver->rows.reach) return SUNDER_OK;
     report->row_reach = sunder_i_alloc(model->features, sizeof *report->row_reach);
     if (!report->row_reach) return sunder_i_failure_cause(err);
     for (size_t f = 0; f < model->features; f++)
-        sunder_i_box_grow(g->row_reach[model->body_of[f]], g->reach, report->row_reach[g->solver->layer.number[f]]);
+        sunder_i_box_grow(g->solver->rows.reach[model->body_of[f]], sunder_i_contact_reach(&model->rules),
+                          report->row_reach[g->solver->layer.number[f]]);
     return SUNDER_OK;
 }
 
-sunder_status sunder_i_report_worlds(sunder_report *report, const sunder_i_solver *solver, sunder_error *err)
+sunder_status sunder_i_report_worlds(sunder_report *report, const sunder_i_solver *solver,
+                                     sunder_i_influence *influence, sunder_error *err)
 {
-    const sunder_i_model *model = &solver->model;
-    if (!model->rules.keep_worlds) return SUNDER_OK;
-    const size_t n = model->bodies;
-    gathering g = {.solver = solver,
-                   .model = model,
-                   .reach = (model->rules.full_gap + model->rules.tolerance + model->rules.thin) * (1 + HAIR),
-                   .row_reach = (const double(*)[4])solver->rows.reach,
-                   .root = sunder_i_alloc(n, sizeof *g.root),
-                   .active = sunder_i_calloc(n, sizeof *g.active),
-                   .read = sunder_i_alloc(n, sizeof *g.read),
-                   .seen = sunder_i_alloc(n, sizeof *g.seen),
-                   .wrote = sunder_i_alloc(n, sizeof *g.wrote)};
-    uint32_t *world = sunder_i_alloc(n, sizeof *world);
-    sunder_status status =
-        g.root && g.active && g.read && g.seen && g.wrote && world ? SUNDER_OK : sunder_i_failure_cause(err);
-    if (!status) {
-        sunder_i_union_init(g.root, n);
-        for (size_t e = 0; e < solver->edges; e++) meet_bodies(&g, solver->edge[e].a, solver->edge[e].b);
-        meet_conflicts(&g, &solver->start);
-        meet_conflicts(&g, &solver->now);
-        meet_tight(&g, report);
-        meet_groups(&g);
-        find_boxes(&g);
-        status = meet_readers(&g, world, err);
-    }
+    if (!solver->model.rules.keep_worlds) return SUNDER_OK;
+    const gathering g = {.solver = solver, .model = &solver->model, .by = influence};
+    uint32_t *world = sunder_i_alloc(solver->model.bodies, sizeof *world);
+    sunder_status status = world ? SUNDER_OK : sunder_i_failure_cause(err);
+    if (!status) status = sunder_i_influence_add(influence, solver, report, err);
+    if (!status) status = sunder_i_influence_gather(influence, world, err);
     if (!status) status = number_worlds(report, &g, world, err);
     if (!status) status = keep_each(report, &g, err);
     if (!status) status = list_footprints(report, &g, err);
     if (!status) status = count_pairs(report, &g, err);
     if (!status) status = count_proved(report, &g, err);
-    sunder_i_free_all(g.root, g.active, g.read, g.seen, g.wrote, world);
+    sunder_i_free(world);
     return status;
+}
+
+/* ---- The layer as given ------------------------------------------------------------------------------------------ */
+
+static bool keep_pair(sunder_report *report, size_t *room, sunder_i_home_pair pair)
+{
+    if (!sunder_i_reserve(&report->home_pair, room, report->home_pairs + 1, sizeof *report->home_pair)) return false;
+    report->home_pair[report->home_pairs++] = pair;
+    return true;
+}
+
+sunder_status sunder_i_report_keep_home(sunder_report *report, const sunder_i_model *model,
+                                        const sunder_i_relations *start, sunder_error *err)
+{
+    size_t room = 0;
+    bool ok = true;
+    if (!model->rules.keep_worlds) return SUNDER_OK;
+    for (size_t k = 0; k < start->n && ok; k++) {
+        const sunder_i_relation *r = &start->pair[k];
+        if (model->body_of[r->a] != model->body_of[r->b] && (sunder_i_is_conflict(r) || r->kept))
+            ok = keep_pair(report, &room, (sunder_i_home_pair){r->a, r->b, SUNDER_I_HOME_MET, 0, false});
+        if (ok && report->thin && report->thin[k])
+            ok = keep_pair(report, &room, (sunder_i_home_pair){r->a, r->b, SUNDER_I_HOME_THIN, 0, false});
+    }
+    for (size_t k = 0; k < start->n && ok;) {
+        sunder_conflict c;
+        uint32_t a, b;
+        if (sunder_i_next_conflict(model, start, &k, &a, &b, &c))
+            ok = keep_pair(report, &room, (sunder_i_home_pair){a, b, SUNDER_I_HOME_CONFLICT, c.kind, c.inside_block});
+    }
+    sunder_i_free(report->thin);
+    report->thin = NULL;
+    return ok ? SUNDER_OK : sunder_i_failure_cause(err);
 }
 
 size_t sunder_report_world(const sunder_report *report, size_t feature)
