@@ -213,6 +213,18 @@ static bool resolve_room(const gis_options *options, gis_layer_rules *out, gis_e
     return resolve_crossed(options, out, error);
 }
 
+/* Refuses what does not know preferred places. */
+static bool check_preferred(const gis_options *options, gis_error *error)
+{
+    static const gis_option_id preferring[] = {OPT_PREFER_DX}, not_with[] = {OPT_PROOF, OPT_MAX_MEMORY};
+    for (size_t i = 0; i < sizeof preferring / sizeof *preferring; i++)
+        for (size_t k = 0; k < sizeof not_with / sizeof *not_with && options->given[preferring[i]]; k++)
+            if (options->given[not_with[k]])
+                return gis_fail_usage(error, "%s: not with %s", gis_option_table[preferring[i]].names,
+                                      gis_option_table[not_with[k]].names);
+    return true;
+}
+
 static bool resolve_rules(const gis_options *options, gis_layer_rules *out, gis_error *error)
 {
     unsigned weighting;
@@ -226,6 +238,7 @@ static bool resolve_rules(const gis_options *options, gis_layer_rules *out, gis_
         .block_field = options->text[OPT_BLOCK_FIELD],
         .weight_field = options->text[OPT_WEIGHT_FIELD],
         .max_shift_field = options->text[OPT_MAX_SHIFT_FIELD],
+        .prefer_field = {options->text[OPT_PREFER_DX], options->text[OPT_PREFER_DY]},
     };
     sunder_layer_options_init(&out->core);
     out->core.no_blocks = options->given[OPT_NO_BLOCKS];
@@ -237,7 +250,7 @@ static bool resolve_rules(const gis_options *options, gis_layer_rules *out, gis_
     out->core.threads = thread_count(options);
     if (!resolve_choice(options, OPT_WEIGHT, weighting_word, &weighting, error)) return false;
     out->weighting = (gis_weighting)weighting;
-    return resolve_rows(options, out, error) && resolve_room(options, out, error) &&
+    return check_preferred(options, error) && resolve_rows(options, out, error) && resolve_room(options, out, error) &&
            resolve_stiffness(options, out->core.row_stiffness, error) &&
            resolve_ease(options, &out->core.ease, error) && resolve_contained(options, &out->core.contained, error);
 }

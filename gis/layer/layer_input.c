@@ -136,7 +136,8 @@ static bool make_layer(gis_layer_input *input, gis_error *error)
         return gis_core_failed(error, "--rows", &why);
     sunder_layer_set_crossed(input->layer, input->request->rules.crossed);
     if (!gis_enlarge_tell(input, NULL, input->n, input->layer, error)) return false;
-    return gis_layer_set_hiding(input, error) && make_levels(input, error) && set_sides(input, error);
+    return gis_layer_set_preferred(input, error) && gis_layer_set_hiding(input, error) && make_levels(input, error) &&
+           set_sides(input, error);
 }
 
 /* Barriers are read within this multiple of the longest limit, since the report also says which longer limit would
@@ -237,6 +238,7 @@ static bool read_barriers(gis_layer_input *input, gis_error *error)
 bool gis_layer_begin(const gis_layer_input_request *request, bool packed, gis_layer_input *out, gis_error *error)
 {
     *out = (gis_layer_input){.request = request,
+                             .prefer_field = {-1, -1},
                              .id_field = -1,
                              .block_field = -1,
                              .rows_field = -1,

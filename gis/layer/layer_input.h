@@ -70,6 +70,7 @@ typedef struct gis_layer_input {
     sunder_layer *layer;
     gis_layer_shaping *shaping;
     int64_t *row; /* [n] the row of each feature by --rows FIELD, -1 for none; NULL: none are given */
+    int prefer_field[2]; /* index of each field; -1: not given */
     int id_field, block_field, limit_field, weight_field, rows_field, hierarchy_field,
         hidden_field;     /* index of each field; -1: not given */
     size_t invalid, null; /* number of features with an invalid geometry; with none, or an empty one */
@@ -130,6 +131,8 @@ sunder_hiding_cost gis_layer_hiding_cost(const gis_layer_input *input, size_t i)
 /* Has what is hidden in a result ignored, except for features of class 0. */
 bool gis_layer_mark_hidden(gis_layer_input *input, gis_error *error);
 bool gis_layer_set_hiding(gis_layer_input *input, gis_error *error); /* hiding_costs.c: once there is a layer */
+/* preferred_moves.c: likewise, the places that features prefer. */
+bool gis_layer_set_preferred(gis_layer_input *input, gis_error *error);
 
 /* Numbers blocks in the order of first appearance; they are ranked when all keys are known. */
 bool gis_layer_number_blocks(gis_layer_input *input, gis_block_keys *keys, gis_error *error);

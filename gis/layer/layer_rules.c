@@ -27,6 +27,8 @@ bool gis_layer_fields(gis_layer_input *input, gis_error *error)
            gis_field_find(source, "--block-field", rules->block_field, &input->block_field, error) &&
            gis_field_find(source, "--rows", rules->rows_field, &input->rows_field, error) &&
            gis_field_find_numbers(source, "--max-shift-field", rules->max_shift_field, &input->limit_field, error) &&
+           gis_field_find_numbers(source, "--prefer-dx", rules->prefer_field[0], &input->prefer_field[0], error) &&
+           gis_field_find_numbers(source, "--prefer-dy", rules->prefer_field[1], &input->prefer_field[1], error) &&
            gis_field_find_numbers(source, "--hierarchy-field", rules->hierarchy_field, &input->hierarchy_field,
                                   error) &&
            gis_field_find_numbers(source, "--hidden-field", rules->hidden_field, &input->hidden_field, error) &&

@@ -23,6 +23,7 @@ typedef struct gis_layer_rules {
     bool has_least_gap;                     /* --least-gap is given, or least= of a barrier */
     const char *ignore_where, *fixed_where; /* SQL */
     const char *block_field, *weight_field, *max_shift_field, *rows_field;
+    const char *prefer_field[2]; /* the moves that features prefer, in x and y */
     gis_weighting weighting;
     bool hide, drop_hidden; /* features may be left out; by the classes in this field, and this weight */
     bool trim; /* features may be cut back at barriers, but keep this share of their area, and a disc of this size */

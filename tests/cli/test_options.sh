@@ -28,7 +28,9 @@ done <asked
 json '.commands[] | .name as $command | .options[] | select(.needs != [])
     | [$command, .name, if .kind == "flag" then .name elif .values then .name + "=" + .values[0] else .name + "=1" end] + .needs | @tsv' \
     options.json | grep -v '^plan' >alone
-same "$(cut -f 1,2,4- alone | tr '\t' ' ')" "separate --hierarchy-field --hide
+same "$(cut -f 1,2,4- alone | tr '\t' ' ')" "separate --prefer-dx --prefer-dy
+separate --prefer-dy --prefer-dx
+separate --hierarchy-field --hide
 separate --hide-weight --hide
 separate --drop-hidden --hide
 separate --trim-keep --trim

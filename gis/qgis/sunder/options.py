@@ -111,6 +111,11 @@ OPTIONS = (
            "Two factors of the cost of a move. 3,0.3: as usual; 10,1: stiff.", ""),
     Option("--ease", TEXT, ("separate",), "Price of what pairs that remain in conflict lack",
            "A number above 0: they come as near to their distance as it pays for; no: they are not eased; empty: 30.", ""),
+    # ---- Preferred places ----
+    Option("--prefer-dx", NUMERIC_FIELD, ("separate",), "Field: the move in x that each feature prefers",
+           "In the units of the layer; null: 0. The cost counts from there. Limits and sides count from the layer."),
+    Option("--prefer-dy", NUMERIC_FIELD, ("separate",), "Field: the move in y that each feature prefers",
+           "In the units of the layer; null: 0."),
     # ---- No room ----
     Option("--hide", FLAG, ("separate",), "Leave out features that cannot be given room",
            "As few as possible, with a proved lower bound. They stay in the layer, with 1 in sunder_inv.", False),
@@ -199,6 +204,7 @@ NOUNS = {
     "--allow-jumps": "checkbox to allow jumps", "--list-inside": "checkbox to list conflicts inside blocks",
     "--rows": "choice of rows", "--row-stiffness": "stiffness of rows",
     "--ease": "price of what pairs lack",
+    "--prefer-dx": "field of the preferred moves in x", "--prefer-dy": "field of the preferred moves in y",
     "--hide": "checkbox to leave features out", "--hierarchy-field": "field of the classes",
     "--hide-weight": "weight of what is left out", "--drop-hidden": "checkbox to drop what is left out",
     "--hidden-field": "field of what is left out", "--trim": "checkbox to cut features back",

@@ -1,0 +1,41 @@
+/* preferred_moves.c: the places that features prefer, as moves from where they stand: the cost counts from there. */
+#include "layer/layer_input.h"
+
+#include "base/core_error.h"
+#include "read/fields.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+/* Sets move[2] to the move that the fields of --prefer-dx and --prefer-dy give feature i; null is 0. */
+static bool take_fields(const gis_layer_input *input, size_t i, double move[2], gis_error *error)
+{
+    for (int c = 0; c < 2; c++) {
+        OGRFeatureH feature = gis_source_feature(input->source, i);
+        const int field = input->prefer_field[c];
+        char who[GIS_WHO_SIZE];
+        if (gis_field_is_blank(feature, field)) continue;
+        const double value = gis_field_number(feature, field);
+        if (!isfinite(value))
+            return gis_layer_wrong_number(input, i, field, "preferred move", "a finite number", error);
+        const gis_length length = {fabs(value), GIS_LAYER_UNIT};
+        gis_feature_name(input, i, who, sizeof who);
+        if (!gis_length_in_layer_units(&length, &input->units, who, &move[c], error)) return false;
+        move[c] = copysign(move[c], value);
+    }
+    return true;
+}
+
+bool gis_layer_set_preferred(gis_layer_input *input, gis_error *error)
+{
+    sunder_error why;
+    if (input->prefer_field[0] < 0) return true;
+    double *move = calloc(2 * input->n + 1, sizeof *move);
+    bool ok = move || gis_no_memory(error);
+    for (size_t i = 0; i < input->n && ok; i++)
+        if (!input->feature[i].ignored) ok = take_fields(input, i, move + 2 * i, error);
+    if (ok && sunder_layer_set_preferred(input->layer, move, &why) != SUNDER_OK)
+        ok = gis_core_failed(error, "--prefer-dx", &why);
+    free(move);
+    return ok;
+}
