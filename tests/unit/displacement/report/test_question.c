@@ -264,6 +264,7 @@ static void test_one_by_one(void **state)
     assert_true(changed);
     assert_true(n > 1000 && work > ALONE_PATIENCE * EFFORT_BRIEFLY_ALONE && work < 40 * EFFORT_BRIEFLY_ALONE);
     c.of.model = *model;
+    c.of.placement = c.solver.placement;
     end(&c);
 }
 

@@ -89,6 +89,7 @@ static void test_boxes(void **state)
             assert_true(bound[0] <= box[0] && bound[1] <= box[1] && box[2] <= bound[2] && box[3] <= bound[3]);
         }
         sunder_i_planes_clear(&planes);
+        sunder_i_half_planes_forget(&c.kept);
         sunder_i_free(c.body);
         sunder_i_free(c.t);
         sunder_i_free(c.limit);

@@ -65,6 +65,13 @@ static void end(crowd *c)
     scene_model_end(&c->of);
 }
 
+/* Removes the first n squares. */
+static void forget(crowd *c, size_t n)
+{
+    for (size_t k = 0; k < n; k++) sunder_shape_free((sunder_shape *)(uintptr_t)c->feature[k].shape);
+    memmove(c->feature, c->feature + n, (c->n -= n) * sizeof *c->feature);
+}
+
 static uint32_t root_of(const crowd *c, size_t feature)
 {
     return sunder_i_union_find(c->solver.parent, c->solver.model.body_of[feature]);
@@ -112,7 +119,7 @@ static void test_takes_in(void **state)
     }
     for (size_t k = 1; k <= HELD; k++) assert_false(joined[0][c.n - k]);
     assert_memory_equal(joined[0], joined[1], c.n * sizeof **joined); /* the number of threads changes nothing */
-    for (size_t k = 0; k < c.n; k++) sunder_shape_free((sunder_shape *)(uintptr_t)c.feature[k].shape);
+    forget(&c, c.n);
 }
 
 /* At effort 0 no body starts at the position that prices give; and a small crowd is started again whenever it grows. */
@@ -126,12 +133,13 @@ static void test_others_stay(void **state)
         if (run)
             c.options.effort = 0;
         else
-            memmove(c.feature, c.feature + 600, (c.n -= 600) * sizeof *c.feature);
+            forget(&c, 600);
         begin(&c);
         const size_t edges = c.solver.edges;
         assert_int_equal(sunder_i_solver_grow_crowds(&c.solver, &err), SUNDER_OK);
         assert_int_equal(c.solver.edges, edges);
         end(&c);
+        forget(&c, c.n);
     }
 }
 

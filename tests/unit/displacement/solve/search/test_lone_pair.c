@@ -21,7 +21,7 @@ typedef struct pair {
     scene_board board;
     sunder_i_cluster cluster;
     sunder_i_search search;
-    double stood[4];
+    double stood[6];
     bool done;
 } pair;
 
@@ -42,8 +42,8 @@ static sunder_separation least_of(const scene *s)
     return least;
 }
 
-/* Starts a search with the two features of the scene. */
-static void begin(pair *p, const double stood[4])
+/* Starts a search with the two or three features of the scene; stood are their vectors. */
+static void begin(pair *p, const double stood[6])
 {
     sunder_error err;
     scene_board *b = &p->board;
@@ -52,7 +52,7 @@ static void begin(pair *p, const double stood[4])
     p->cluster = (sunder_i_cluster){.body = b->body, .n = b->scene.n, .margin = margin};
     assert_true(sunder_i_search_init(&p->search, &b->of.model, b->body, b->scene.n, margin, stood));
     assert_int_equal(sunder_i_search_separate_lone_pair(&p->search, &p->cluster, &p->done, &err), SUNDER_OK);
-    if (!p->done) assert_memory_equal(p->search.t, stood, sizeof p->stood);
+    if (!p->done) assert_memory_equal(p->search.t, stood, 2 * b->scene.n * sizeof *stood);
 }
 
 static void end(pair *p)
@@ -92,7 +92,7 @@ static void test_the_least_is_paid(void **state)
         add_any(&r, s);
         s->feature[1].fixed = rng_once_in(&r, 6);
         if (rng_once_in(&r, 4)) s->feature[0].max_shift = s->feature[1].max_shift = 2 * rng_unit(&r);
-        begin(&p, (double[4]){rng_unit(&r), 0, 0, 0});
+        begin(&p, (double[6]){rng_unit(&r), 0, 0, 0});
         sunder_separation least = least_of(s);
         if (p.done)
             assert_true(p.cluster.measured.least == least.lower_bound);
@@ -128,7 +128,7 @@ static void test_others_have_a_say(void **state)
         if (kind == 3) scene_add_box(s, 40, 0, 1, 1);
         if (kind == 4) s->feature[0].fixed = s->feature[1].fixed = true;
         if (kind == 5) s->options.contained = SUNDER_CONTAINMENT_IGNORE;
-        begin(&p, (double[4]){0});
+        begin(&p, (double[6]){0});
         assert_true(p.done == (kind == 0));
         assert_true((p.cluster.measured.least > 0) == (kind == 0));
         end(&p);
@@ -164,7 +164,7 @@ static void test_hardly_too_near(void **state)
         scene *s = scene_of(&p, gap);
         add_slanted(s, o, e, 0, 0, 10, 5);
         add_slanted(s, o, e, 1, 5 + gap, 4, 3);
-        begin(&p, (double[4]){0});
+        begin(&p, (double[6]){0});
         for (int c = 0; c < 4; c++) assert_true(fabs(p.search.t[c]) < 1e-6); /* the comparison also fails for NAN */
         sunder_separation least = least_of(s);
         conflicts += least.overlap;
