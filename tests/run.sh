@@ -49,4 +49,5 @@ setup_install
 
 setup_build "$source" "$build"
 cd "$build"
-ctest --output-on-failure -j "$(nproc 2>/dev/null || echo 2)" "$@"
+# One more than there are processors: a quarter of the time of tests is waiting, for files, servers and browsers.
+ctest --output-on-failure -j "$(($(nproc 2>/dev/null || echo 2) + 1))" "$@"

@@ -25,7 +25,9 @@ all_ways() { # WAYS EFFORT OPTIONS
     done
     [ "$(grep -c '^result_displacement ' given.txt)" -gt 20 ] || fail "$*: too few features moved for the test"
 }
-all_ways "reversed rotated shuffled closed_twice with_middles all" 0 --gap 3 --max-shift 6 --barrier "$roads,width=4"
-all_ways "reversed all" 1 --gap 2 --touch-tolerance 0.5
-[ $n -eq 10 ] || fail "$n runs"
+ways="shuffled all" # the others are in `all`
+[[ ${SUNDER_LAWS:-} != all ]] || ways="reversed rotated shuffled closed_twice with_middles all"
+all_ways "$ways" 0 --gap 3 --max-shift 6 --barrier "$roads,width=4"
+all_ways "reversed" 1 --gap 2 --touch-tolerance 0.5
+((n >= 5)) || fail "$n runs"
 finish

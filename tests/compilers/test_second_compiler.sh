@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Does the second compiler (clang if the build uses gcc, gcc if it uses clang) accept the C files of the program, of its
 # tests and of the benchmarks without a warning? Each is parsed once, with the flags of the first target that it belongs
-# to. The library and its tests are not among them: invariants/test_invariants compiles these with the second compiler.
+# to. The library and its unit tests are not among them: invariants/test_invariants compiles these with the second
+# compiler.
 # In continuous integration warnings of the first compiler are errors, too (SUNDER_WERROR).
 set -euo pipefail
 source=${SUNDER_SOURCE:?}
@@ -23,7 +24,7 @@ import shlex
 import sys
 
 source, build, second = sys.argv[1:]
-compiled = re.compile(re.escape(source) + "/(src|tests/(support|unit|property|golden))/")
+compiled = re.compile(re.escape(source) + "/(src|tests/(support|unit|golden))/")
 commands = {}
 with open(f"{build}/compile_commands.json", encoding="utf-8") as file:
     entries = json.load(file)

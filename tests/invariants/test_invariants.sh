@@ -4,7 +4,8 @@
 # without NDEBUG and with warnings as errors. Without a second compiler the first one makes it.
 #
 # What this leaves out: code by gcc with assertions, and code by clang without, where only gcc reports variables that
-# nothing but an assertion uses. The longest random tests, of the label `thorough`, run in the ordinary build alone.
+# nothing but an assertion uses. The random tests run in the ordinary build; `ctest -C long -L long` (SUNDER_LAWS=all)
+# runs them here, too.
 set -euo pipefail
 source=${SUNDER_SOURCE:?}
 build=${SUNDER_BUILD:?}
@@ -26,7 +27,9 @@ cmake -S "$source" -B "$second_build" -G "$generator" -D CMAKE_C_COMPILER="$seco
     -D CMAKE_C_FLAGS_DEBUG=-O1 -D SUNDER_PROGRAM=OFF -D SUNDER_WERROR=ON >"$second_build/log" 2>&1 || failed
 grep -q -- '-Wpedantic .*-Werror' "$second_build/compile_commands.json" || { echo "FAILED: warnings are not errors"; exit 1; }
 
-mapfile -t programs < <(cd "$source/tests" && find unit property golden -name 'test_*.c' |
+folders=(unit golden)
+[[ ${SUNDER_LAWS:-} != all ]] || folders+=(property)
+mapfile -t programs < <(cd "$source/tests" && find "${folders[@]}" -name 'test_*.c' |
     sed 's|^[a-z]*/||; s|^\(.*/\)test_|test_\1|; s|/|_|g; s|\.c$||') # unit/number/test_big.c: test_number_big
 keep_going=(-k) # every file is compiled, even if others have warnings
 if [[ $generator == Ninja* ]]; then keep_going=(-k 0); fi
@@ -48,4 +51,5 @@ $second -I "$source/src" -o "$second_build/broken" "$second_build/broken.c" "$se
 ! ("$second_build/broken" 2>/dev/null) && ! ("$second_build/broken" x 2>/dev/null) && "$second_build/broken" x x ||
     { echo "FAILED: assertions are off"; exit 1; }
 cd "$second_build"
-ctest --output-on-failure -j "$jobs" -L '^(unit|golden|property)$' -LE '^thorough$'
+kinds=${folders[*]}
+ctest --output-on-failure -j "$jobs" -L "^(${kinds// /|})\$" -LE '^thorough$'

@@ -39,7 +39,7 @@ enum { MOST = 48, CORNERS = 8 };
 
 /* The number of towns, and the most houses in each. With half as many houses again the test takes as long as all others
  * together, so that is left to larger runs. */
-enum { TOWNS = 40, HOUSES = 20, MORE_HOUSES = 32 };
+enum { TOWNS = 20, HOUSES = 20, MORE_HOUSES = 32 };
 
 typedef struct house {
     double xy[2 * CORNERS];

@@ -66,7 +66,7 @@ static void check_packed(void **state)
 {
     (void)state;
     size_t proved = 0, open = 0;
-    const size_t trials = test_count(150);
+    const size_t trials = test_count(75);
     for (size_t trial = 0; trial < trials; trial++) {
         rng r = rng_start(test_seed(), trial);
         proof_town t;
@@ -88,7 +88,7 @@ static void check_exact_fits(void **state)
 {
     (void)state;
     size_t left = 0;
-    const size_t trials = test_count(500);
+    const size_t trials = test_count(250);
     for (size_t trial = 0; trial < trials; trial++) {
         rng r = rng_start(test_seed(), trial);
         proof_town t;
@@ -130,7 +130,7 @@ static void check_towns(void **state)
 {
     (void)state;
     size_t proved = 0, open = 0, nodes = 0;
-    const size_t trials = test_count(60);
+    const size_t trials = test_count(30);
     for (size_t trial = 0; trial < trials; trial++) {
         rng r = rng_start(test_seed(), trial);
         proof_town t;
@@ -165,7 +165,7 @@ static void check_held(void **state)
 {
     (void)state;
     size_t proved = 0, open = 0;
-    const size_t trials = test_count(150);
+    const size_t trials = test_count(75);
     for (size_t trial = 0; trial < trials; trial++) {
         rng r = rng_start(test_seed(), trial);
         proof_town t;
@@ -196,7 +196,7 @@ static void check_irreducible(void **state)
 {
     (void)state;
     size_t tried = 0, solved = 0;
-    const size_t trials = test_count(30);
+    const size_t trials = test_count(15);
     for (size_t trial = 0; trial < trials; trial++) {
         rng r = rng_start(test_seed(), trial);
         proof_town t;
@@ -266,7 +266,7 @@ static void check_corridors(void **state)
 {
     (void)state;
     size_t proved = 0, open = 0, still = 0, deep = 0, odd = 0;
-    const size_t trials = test_count(60);
+    const size_t trials = test_count(30);
     for (size_t trial = 0; trial < trials; trial++) {
         rng r = rng_start(test_seed(), trial);
         proof_town t;

@@ -69,7 +69,7 @@ static void check_grids(void **state)
 {
     (void)state;
     tally sum = {0};
-    const size_t trials = test_count(2);
+    const size_t trials = test_count(1);
     for (size_t trial = 0; trial < trials; trial++) {
         rng r = rng_start(test_seed(), trial);
         proof_town t;
@@ -101,7 +101,7 @@ static void check_grids(void **state)
 static void check_that_fit(void **state)
 {
     (void)state;
-    const size_t trials = test_count(20);
+    const size_t trials = test_count(10);
     for (size_t trial = 0; trial < trials; trial++) {
         rng r = rng_start(test_seed(), trial);
         proof_town t;

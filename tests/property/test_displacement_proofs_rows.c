@@ -76,7 +76,7 @@ static void check_rows(void **state)
 {
     (void)state;
     size_t proved = 0, open = 0, longest = 0;
-    const size_t trials = test_count(4);
+    const size_t trials = test_count(2);
     for (size_t trial = 0; trial < trials; trial++) {
         rng r = rng_start(test_seed(), trial);
         row of;
@@ -113,7 +113,7 @@ static void check_turned(void **state)
 {
     (void)state;
     size_t proved = 0, open = 0, longest = 0;
-    const size_t trials = test_count(4);
+    const size_t trials = test_count(2);
     for (size_t trial = 0; trial < trials; trial++) {
         rng r = rng_start(test_seed(), trial);
         proof_town t;

@@ -15,7 +15,7 @@
  * arm. */
 static void begin_slot(scene *s, double dx, double dy)
 {
-    char wkt[400];
+    char wkt[800];
     scene_begin(s, 0);
     snprintf(wkt, sizeof wkt,
              "POLYGON((%.17g %.17g,%.17g %.17g,%.17g %.17g,%.17g %.17g,%.17g %.17g,%.17g %.17g,%.17g %.17g,%.17g "
