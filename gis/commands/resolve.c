@@ -216,7 +216,7 @@ static bool resolve_room(const gis_options *options, gis_layer_rules *out, gis_e
 /* Refuses what does not know preferred places. */
 static bool check_preferred(const gis_options *options, gis_error *error)
 {
-    static const gis_option_id preferring[] = {OPT_PREFER_DX}, not_with[] = {OPT_PROOF, OPT_MAX_MEMORY};
+    static const gis_option_id preferring[] = {OPT_PREFER_DX, OPT_PREVIOUS}, not_with[] = {OPT_PROOF, OPT_MAX_MEMORY};
     for (size_t i = 0; i < sizeof preferring / sizeof *preferring; i++)
         for (size_t k = 0; k < sizeof not_with / sizeof *not_with && options->given[preferring[i]]; k++)
             if (options->given[not_with[k]])
@@ -356,6 +356,8 @@ bool gis_resolve_layer(const gis_options *options, gis_layer_input_request *out,
         .output = output_of(options),
         .update = options->given[OPT_UPDATE],
         .scale = options->number[OPT_SCALE],
+        .previous = options->text[OPT_PREVIOUS],
+        .previous_stays = options->text[OPT_PREVIOUS_RELAX] && strcmp(options->text[OPT_PREVIOUS_RELAX], "no") == 0,
         .id_field = options->text[OPT_ID_FIELD],
         .symbol = options->text[OPT_SYMBOL],
         .symbol_field = options->text[OPT_SYMBOL_FIELD],

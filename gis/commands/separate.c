@@ -28,7 +28,7 @@ static bool separate_in_parts(gis_separate_run *run, gis_error *error)
 static bool read_whole(gis_separate_run *run, gis_error *error)
 {
     run->source_held = true;
-    return gis_layer_input_read(&run->request, &run->input, error);
+    return gis_layer_input_read(&run->request, &run->input, error) && gis_layer_set_preferred(&run->input, error);
 }
 
 static bool separate_whole(gis_separate_run *run, gis_error *error)

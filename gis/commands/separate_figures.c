@@ -164,6 +164,43 @@ static void json_shrunk(gis_json *out, const gis_separate_run *run)
     gis_json_close(out, '}');
 }
 
+/* What became of the moves of an earlier result. */
+typedef struct gis_moves_since {
+    size_t kept, changed, new, relaxed;
+} gis_moves_since;
+
+static gis_moves_since count_moves_since(const gis_separate_run *run)
+{
+    const gis_previous *previous = &run->input.previous;
+    gis_moves_since count = {0};
+    for (size_t i = 0; i < run->input.n; i++) {
+        double dx, dy;
+        const double *was = previous->move + 2 * i;
+        sunder_report_move(run->report, i, &dx, &dy);
+        count.relaxed += previous->relaxed[i];
+        if (previous->of[i] == SIZE_MAX)
+            count.new ++;
+        else if (dx == was[0] && dy == was[1])
+            count.kept++;
+        else
+            count.changed++;
+    }
+    return count;
+}
+
+static void json_previous(gis_json *out, const gis_separate_run *run)
+{
+    const gis_moves_since count = count_moves_since(run);
+    gis_json_key(out, "previous");
+    gis_json_open(out, '{');
+    gis_json_put_size(out, "kept", count.kept);
+    gis_json_put_size(out, "changed", count.changed);
+    gis_json_put_size(out, "new", count.new);
+    gis_json_put_size(out, "gone", run->input.previous.gone);
+    gis_json_put_size(out, "relaxed", count.relaxed);
+    gis_json_close(out, '}');
+}
+
 void gis_separate_stats(gis_json *out, const gis_separate_run *run)
 {
     const sunder_layer_summary *summary = &run->summary;
@@ -200,6 +237,10 @@ void gis_separate_stats(gis_json *out, const gis_separate_run *run)
     }
     if (run->request.rules.core.ease > 0) {
         json_shortfall(out, summary);
+        gis_json_line(out);
+    }
+    if (run->input.previous.move) {
+        json_previous(out, run);
         gis_json_line(out);
     }
     if (run->request.rules.hide || gis_levels_asked(&run->request.rules)) {
@@ -317,6 +358,14 @@ static void print_shortfall(const gis_separate_run *run)
     putchar('\n');
 }
 
+static void print_previous(const gis_separate_run *run)
+{
+    if (!run->input.previous.move) return;
+    const gis_moves_since count = count_moves_since(run);
+    printf("since the previous result: kept %zu, changed %zu, new %zu, gone %zu; free to go back %zu\n", count.kept,
+           count.changed, count.new, run->input.previous.gone, count.relaxed);
+}
+
 bool gis_separate_print(const void *separated, gis_error *error)
 {
     const gis_separate_run *run = separated;
@@ -335,6 +384,7 @@ bool gis_separate_print(const void *separated, gis_error *error)
     if (summary->max_feature < run->input.n) printf(" (FID " CPL_FRMT_GIB ")", longest_fid(run));
     printf("\ncost %.6g, at least %.6g is needed (optimality gap %.3g)\n", summary->cost, summary->lower_bound,
            gis_separate_optimality_gap(summary));
+    print_previous(run);
     print_rows(run);
     print_shortfall(run);
     print_hidden(run);

@@ -136,8 +136,7 @@ static bool make_layer(gis_layer_input *input, gis_error *error)
         return gis_core_failed(error, "--rows", &why);
     sunder_layer_set_crossed(input->layer, input->request->rules.crossed);
     if (!gis_enlarge_tell(input, NULL, input->n, input->layer, error)) return false;
-    return gis_layer_set_preferred(input, error) && gis_layer_set_hiding(input, error) && make_levels(input, error) &&
-           set_sides(input, error);
+    return gis_layer_set_hiding(input, error) && make_levels(input, error) && set_sides(input, error);
 }
 
 /* Barriers are read within this multiple of the longest limit, since the report also says which longer limit would
@@ -263,6 +262,14 @@ bool gis_layer_make_room(gis_layer_input *input, bool demands, gis_error *error)
     return (input->shape && (!demands || input->feature)) || gis_no_memory(error);
 }
 
+static void clear_previous(gis_previous *previous)
+{
+    free(previous->move);
+    free(previous->of);
+    free(previous->relaxed);
+    *previous = (gis_previous){0};
+}
+
 void gis_layer_drop_features(gis_layer_input *input)
 {
     for (size_t i = 0; input->shape && i < input->n; i++) sunder_shape_free(input->shape[i]);
@@ -271,6 +278,7 @@ void gis_layer_drop_features(gis_layer_input *input)
     free(input->given);
     input->given = NULL;
     gis_levels_clear(&input->levels);
+    clear_previous(&input->previous);
     free(input->feature);
     free(input->row);
     input->row = NULL;

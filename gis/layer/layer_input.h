@@ -20,6 +20,8 @@ typedef struct gis_layer_input_request {
     gis_invalid_policy invalid;
     double scale; /* N of the scale 1:N */
     const char *id_field;
+    const char *previous;              /* the result of an earlier run, whose moves are preferred */
+    bool previous_stays;               /* also beside places that are empty now */
     const char *symbol, *symbol_field; /* if one of them is given, features are points at which symbols are drawn */
     const char *symbol_size_field;     /* field with a factor for each symbol */
     bool may_have_symbols;             /* the command has --symbol, so a hint is given for points without one */
@@ -44,6 +46,14 @@ typedef struct gis_levels {
     size_t features, rungs;
     gis_rung *kind; /* [rungs] */
 } gis_levels;
+
+/* What the result of an earlier run says of the features; zeroed: there is none. */
+typedef struct gis_previous {
+    double *move;  /* [2 n] the former moves; 0 for features that are new */
+    size_t *of;    /* [n] the number of the feature in that result; SIZE_MAX: it is new */
+    bool *relaxed; /* [n] it stood near a place that is empty now, and is free to go back */
+    size_t gone;   /* the number of features of that result that are not in the layer */
+} gis_previous;
 
 typedef struct gis_layer_input {
     const gis_layer_input_request *request;
@@ -70,6 +80,7 @@ typedef struct gis_layer_input {
     sunder_layer *layer;
     gis_layer_shaping *shaping;
     int64_t *row; /* [n] the row of each feature by --rows FIELD, -1 for none; NULL: none are given */
+    gis_previous previous;
     int prefer_field[2]; /* index of each field; -1: not given */
     int id_field, block_field, limit_field, weight_field, rows_field, hierarchy_field,
         hidden_field;     /* index of each field; -1: not given */
@@ -131,8 +142,10 @@ sunder_hiding_cost gis_layer_hiding_cost(const gis_layer_input *input, size_t i)
 /* Has what is hidden in a result ignored, except for features of class 0. */
 bool gis_layer_mark_hidden(gis_layer_input *input, gis_error *error);
 bool gis_layer_set_hiding(gis_layer_input *input, gis_error *error); /* hiding_costs.c: once there is a layer */
-/* preferred_moves.c: likewise, the places that features prefer. */
+/* Once the layer is read: the places that features prefer (preferred_moves.c). The former moves among them are those of
+ * the result of an earlier run, if there is one (previous.c). */
 bool gis_layer_set_preferred(gis_layer_input *input, gis_error *error);
+bool gis_previous_read(gis_layer_input *input, gis_error *error);
 
 /* Numbers blocks in the order of first appearance; they are ranked when all keys are known. */
 bool gis_layer_number_blocks(gis_layer_input *input, gis_block_keys *keys, gis_error *error);

@@ -3,6 +3,7 @@
 #include "layer/moves.h"
 
 #include "layer/enlarging.h"
+#include "layer/feature_keys.h"
 #include "layer/levels.h"
 #include "layer/levels_again.h"
 
@@ -14,62 +15,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* A feature and the key by which it is matched. */
-typedef struct known {
-    char *key; /* owned */
-    size_t feature;
-} known;
-
-static int by_key(const void *a, const void *b)
-{
-    const known *p = a, *q = b;
-    return strcmp(p->key, q->key);
-}
-
-static void free_keys(known *list, size_t n)
-{
-    for (size_t i = 0; list && i < n; i++) free(list[i].key);
-    free(list);
-}
-
-/* The key of feature i: the value of --id-field or of fid_field (sunder_fid, if the format keeps no FIDs); else its
- * FID. Freed with free(). */
-static char *key_of(const gis_layer_input *input, size_t i, int fid_field)
-{
-    OGRFeatureH feature = gis_source_feature(input->source, i);
-    int field = input->id_field >= 0 ? input->id_field : fid_field;
-    if (field >= 0) return gis_field_key(feature, field);
-    char text[32];
-    snprintf(text, sizeof text, CPL_FRMT_GIB, gis_source_fid(input->source, i));
-    char *copy = malloc(strlen(text) + 1);
-    return copy ? strcpy(copy, text) : NULL;
-}
-
-/* Lists all features sorted by key; fails if two have the same key. */
-static bool list_keys(const gis_layer_input *input, int fid_field, known **out, gis_error *error)
-{
-    known *list = calloc(input->n + 1, sizeof *list);
-    bool ok = list != NULL || gis_no_memory(error);
-    for (size_t i = 0; ok && i < input->n; i++) {
-        list[i] = (known){key_of(input, i, fid_field), i};
-        ok = list[i].key || gis_no_memory(error);
-    }
-    if (ok) qsort(list, input->n, sizeof *list, by_key);
-    for (size_t i = 1; ok && i < input->n; i++)
-        if (strcmp(list[i - 1].key, list[i].key) == 0) {
-            char who[GIS_WHO_SIZE];
-            gis_feature_name(input, list[i].feature, who, sizeof who);
-            ok = gis_fail(
-                error, "--before: %s: another feature of %s has the key %s too; give an --id-field with unique values",
-                who, gis_source_path(input->source), list[i].key);
-        }
-    if (ok)
-        *out = list;
-    else
-        free_keys(list, input->n);
-    return ok;
-}
 
 /* ---- Matching ---------------------------------------------------------------------------------------------------- */
 
@@ -152,15 +97,15 @@ static bool match_features(pairing *p, gis_error *error)
 {
     gis_moves *m = p->moves;
     const gis_layer_input *now = p->now;
-    known *keys = NULL, *own = NULL;
-    int fid_field = now->id_field >= 0 ? -1 : gis_source_field(now->source, "sunder_fid");
-    bool ok = list_keys(now, fid_field, &keys, error) && list_keys(&m->original, -1, &own, error);
+    gis_feature_key *keys = NULL, *own = NULL;
+    bool ok = gis_feature_keys_list(now, gis_feature_key_field(now), "--before", &keys, error) &&
+              gis_feature_keys_list(&m->original, -1, "--before", &own, error);
     size_t found = 0;
     for (size_t i = 0; ok && i < m->original.n; i++) {
-        known key = {key_of(&m->original, i, -1), i};
-        ok = key.key || gis_no_memory(error);
-        const known *other = ok ? bsearch(&key, keys, now->n, sizeof *keys, by_key) : NULL;
-        free(key.key);
+        char *key = gis_feature_key_of(&m->original, i, -1);
+        ok = key || gis_no_memory(error);
+        const gis_feature_key *other = ok ? gis_feature_keys_find(keys, now->n, key) : NULL;
+        free(key);
         if (other) {
             found++;
             ok = take_pair(p, i, other->feature, error);
@@ -170,8 +115,8 @@ static bool match_features(pairing *p, gis_error *error)
     if (ok && found < now->n)
         gis_say_warning(GIS_MESSAGE_PASSED_BY, "--before: %zu features of %s are not in %s; they are not compared",
                         now->n - found, gis_source_name(now->source), gis_source_path(m->original.source));
-    free_keys(keys, now->n);
-    free_keys(own, m->original.n);
+    gis_feature_keys_free(keys, keys ? now->n : 0);
+    gis_feature_keys_free(own, own ? m->original.n : 0);
     return ok;
 }
 

@@ -6,8 +6,9 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
-/* Sets move[2] to the move that the fields of --prefer-dx and --prefer-dy give feature i; null is 0. */
+/* Sets move[2] to the move that the fields of --prefer-dx and --prefer-dy give feature i; null changes nothing. */
 static bool take_fields(const gis_layer_input *input, size_t i, double move[2], gis_error *error)
 {
     for (int c = 0; c < 2; c++) {
@@ -29,13 +30,18 @@ static bool take_fields(const gis_layer_input *input, size_t i, double move[2], 
 bool gis_layer_set_preferred(gis_layer_input *input, gis_error *error)
 {
     sunder_error why;
-    if (input->prefer_field[0] < 0) return true;
+    if (input->prefer_field[0] < 0 && !input->request->previous) return true;
+    if (!gis_previous_read(input, error)) return false;
     double *move = calloc(2 * input->n + 1, sizeof *move);
     bool ok = move || gis_no_memory(error);
-    for (size_t i = 0; i < input->n && ok; i++)
-        if (!input->feature[i].ignored) ok = take_fields(input, i, move + 2 * i, error);
+    for (size_t i = 0; i < input->n && ok; i++) {
+        if (input->feature[i].ignored) continue;
+        if (input->previous.move && !input->previous.relaxed[i])
+            memcpy(move + 2 * i, input->previous.move + 2 * i, 2 * sizeof *move);
+        if (input->prefer_field[0] >= 0) ok = take_fields(input, i, move + 2 * i, error);
+    }
     if (ok && sunder_layer_set_preferred(input->layer, move, &why) != SUNDER_OK)
-        ok = gis_core_failed(error, "--prefer-dx", &why);
+        ok = gis_core_failed(error, "preferred places", &why);
     free(move);
     return ok;
 }

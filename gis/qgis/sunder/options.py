@@ -116,6 +116,11 @@ OPTIONS = (
            "In the units of the layer; null: 0. The cost counts from there. Limits and sides count from the layer."),
     Option("--prefer-dy", NUMERIC_FIELD, ("separate",), "Field: the move in y that each feature prefers",
            "In the units of the layer; null: 0."),
+    Option("--previous", SOURCE, ("separate",), "An earlier result, whose moves are preferred",
+           "Features that it has, too, stay where they were moved, as far as nothing near them has changed. They are matched by "
+           "the key field, otherwise by FID."),
+    Option("--previous-relax", CHOICE, ("separate",), "Features beside a place that is empty now",
+           "Otherwise moves would be kept whose reason is gone.", 0, ("yes", "no"), ("May go back", "Stay")),
     # ---- No room ----
     Option("--hide", FLAG, ("separate",), "Leave out features that cannot be given room",
            "As few as possible, with a proved lower bound. They stay in the layer, with 1 in sunder_inv.", False),
@@ -205,6 +210,7 @@ NOUNS = {
     "--rows": "choice of rows", "--row-stiffness": "stiffness of rows",
     "--ease": "price of what pairs lack",
     "--prefer-dx": "field of the preferred moves in x", "--prefer-dy": "field of the preferred moves in y",
+    "--previous": "earlier result", "--previous-relax": "choice for features beside empty places",
     "--hide": "checkbox to leave features out", "--hierarchy-field": "field of the classes",
     "--hide-weight": "weight of what is left out", "--drop-hidden": "checkbox to drop what is left out",
     "--hidden-field": "field of what is left out", "--trim": "checkbox to cut features back",
