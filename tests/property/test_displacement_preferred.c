@@ -1,7 +1,8 @@
 /* Laws of preferred places (sunder_layer_set_preferred()), on streets of boxes beside a road: a layout in which nothing
  * is short, preferred, is the result, and costs nothing; what cannot move prefers nothing; the cost counts from the
- * preferred places, and the bound does not exceed it; limits count from where features stand. That the cost is the
- * optimum is tested beside the oracle (test_displacement_optimum.c). */
+ * preferred places, and the bound does not exceed it; limits count from where features stand; a street in line has the
+ * least cost of a quadratic program in one dimension, springs included. That the cost is the optimum without rows is
+ * tested beside the oracle (test_displacement_optimum.c). */
 #include "random.h"
 #include "upheld.h"
 
@@ -208,6 +209,117 @@ static void test_costs(void **state)
     assert_true(bound > 0.9 * cost);
 }
 
+/* ---- A street in line -------------------------------------------------------------------------------------------- */
+
+enum { IN_LINE = 8 };
+
+/* The least of sum over i, j of h_ij t_i t_j / 2 - sum b_i t_i under t_(i + 1) - t_i >= c_i, by ascent of one multiplier
+ * after the other; h is the inverse of the matrix. t receives the minimiser. */
+static void solve_chain(size_t n, double h[IN_LINE][IN_LINE], const double *b, const double *c, double *t)
+{
+    double force[IN_LINE] = {0};
+    for (int sweep = 0; sweep < 20000; sweep++)
+        for (size_t k = 0; k + 1 < n; k++) {
+            for (size_t i = 0; i < n; i++) {
+                t[i] = 0;
+                for (size_t j = 0; j < n; j++)
+                    t[i] += h[i][j] * (b[j] + (j ? force[j - 1] : 0) - (j + 1 < n ? force[j] : 0));
+            }
+            const double square = h[k][k] + h[k + 1][k + 1] - h[k][k + 1] - h[k + 1][k];
+            force[k] = fmax(0, force[k] + (c[k] - (t[k + 1] - t[k])) / square);
+        }
+}
+
+/* Inverts the matrix by Gauss and Jordan; it is positive definite. */
+static void invert(size_t n, double a[IN_LINE][IN_LINE], double out[IN_LINE][IN_LINE])
+{
+    for (size_t i = 0; i < n; i++)
+        for (size_t j = 0; j < n; j++) out[i][j] = i == j;
+    for (size_t k = 0; k < n; k++) {
+        const double pivot = a[k][k];
+        for (size_t j = 0; j < n; j++) a[k][j] /= pivot, out[k][j] /= pivot;
+        for (size_t i = 0; i < n; i++) {
+            const double times = a[i][k];
+            for (size_t j = 0; j < n && i != k; j++) a[i][j] -= times * a[k][j], out[i][j] -= times * out[k][j];
+        }
+    }
+}
+
+/* The least cost of a street in line whose houses keep their order: only moves along it matter, since across it each
+ * house makes the move that it prefers. */
+static double cost_in_line(const street *s, const double *apart)
+{
+    double matrix[IN_LINE][IN_LINE] = {{0}}, inverse[IN_LINE][IN_LINE], b[IN_LINE] = {0}, c[IN_LINE], t[IN_LINE],
+           cost = 0;
+    for (size_t i = 0; i < s->n; i++) {
+        matrix[i][i] += 2 * s->feature[i].weight;
+        b[i] += 2 * s->feature[i].weight * s->preferred[2 * i];
+        if (i == 0) continue;
+        const double stiff = s->options.row_stiffness[1] * fmin(s->feature[i].weight, s->feature[i - 1].weight),
+                     rest = s->preferred[2 * i] - s->preferred[2 * i - 2];
+        matrix[i][i] += 2 * stiff, matrix[i - 1][i - 1] += 2 * stiff;
+        matrix[i][i - 1] -= 2 * stiff, matrix[i - 1][i] -= 2 * stiff;
+        b[i] += 2 * stiff * rest, b[i - 1] -= 2 * stiff * rest;
+        c[i - 1] = s->options.gap - apart[i - 1];
+    }
+    invert(s->n, matrix, inverse);
+    solve_chain(s->n, inverse, b, c, t);
+    for (size_t i = 0; i < s->n; i++) {
+        const double off = t[i] - s->preferred[2 * i];
+        cost += s->feature[i].weight * off * off;
+        if (i == 0) continue;
+        const double u = off - (t[i - 1] - s->preferred[2 * i - 2]);
+        cost += s->options.row_stiffness[1] * fmin(s->feature[i].weight, s->feature[i - 1].weight) * u * u;
+    }
+    return cost;
+}
+
+static void build_in_line(rng *r, street *s, double *apart)
+{
+    double x = 0;
+    *s = (street){.n = (size_t)rng_int(r, 3, IN_LINE)};
+    sunder_layer_options_init(&s->options);
+    s->options.gap = 2;
+    s->options.no_blocks = true;
+    s->options.rows = SUNDER_ROWS_FOUND;
+    for (size_t k = 0; k < s->n; k++) {
+        const double w = (double)rng_int(r, 8, 12);
+        s->feature[k] = (sunder_feature){.weight = 1, .max_shift = INFINITY, .block = -1};
+        if (rng_once_in(r, 2)) s->feature[k].weight = (double)rng_int(r, 2, 12) / 4;
+        s->feature[k].shape = box_shape(x, 0, w, 10);
+        apart[k] = (double)rng_int(r, 2, 12) / 4;
+        x += w + apart[k];
+        for (size_t c = 0; c < 2; c++)
+            if (rng_once_in(r, 2)) s->preferred[2 * k + c] = (double)rng_int(r, -16, 16) / 8;
+    }
+}
+
+static void test_street_in_line(void **state)
+{
+    (void)state;
+    double sum = 0;
+    for (size_t i = 0; i < test_count(40); i++) {
+        rng r = rng_start(test_seed() + 3, i);
+        street s;
+        sunder_layer_summary summary;
+        double apart[IN_LINE];
+        build_in_line(&r, &s, apart);
+        sunder_report *report = separate(&s, s.preferred, &summary);
+        const double least = cost_in_line(&s, apart);
+        if (!leaves_conflicts(report) && fabs(summary.cost - least) > 1e-5 * least + 1e-6)
+            fail_msg("seed %llu, case %zu: cost %.12g, the least is %.12g", (unsigned long long)test_seed(), i,
+                     summary.cost, least);
+        if (summary.lower_bound > least * (1 + 1e-9) + 1e-9)
+            fail_msg("seed %llu, case %zu: bound %.12g, the least is %.12g", (unsigned long long)test_seed(), i,
+                     summary.lower_bound, least);
+        sum += least;
+        sunder_report_free(report);
+        end(&s);
+    }
+    printf("cost in line %.6g\n", sum);
+    assert_true(sum > 0);
+}
+
 /* The law that all zeros are as good as none; what is fixed prefers nothing. */
 static void test_nothing_preferred(void **state)
 {
@@ -258,9 +370,8 @@ static void test_refusals(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_layout_is_kept),
-        cmocka_unit_test(test_costs),
-        cmocka_unit_test(test_nothing_preferred),
+        cmocka_unit_test(test_layout_is_kept), cmocka_unit_test(test_costs),
+        cmocka_unit_test(test_street_in_line), cmocka_unit_test(test_nothing_preferred),
         cmocka_unit_test(test_refusals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
