@@ -213,8 +213,8 @@ static void test_costs(void **state)
 
 enum { IN_LINE = 8 };
 
-/* The least of sum over i, j of h_ij t_i t_j / 2 - sum b_i t_i under t_(i + 1) - t_i >= c_i, by ascent of one multiplier
- * after the other; h is the inverse of the matrix. t receives the minimiser. */
+/* The least of sum over i, j of m_ij t_i t_j / 2 - sum b_i t_i under t_(i + 1) - t_i >= c_i, by ascent of one
+ * multiplier after the other; h is the inverse of m. t receives the minimiser. */
 static void solve_chain(size_t n, double h[IN_LINE][IN_LINE], const double *b, const double *c, double *t)
 {
     double force[IN_LINE] = {0};
