@@ -224,7 +224,7 @@ static sunder_status explain_result(sunder_i_solver *s, const sunder_layer_optio
     if (!status) status = sunder_i_report_pushes(report, s, err);
     if (!status) status = sunder_i_report_row_pairs(report, &s->model, &s->rows, err);
     status = pass_progress(s, BOUNDED, status, err);
-    if (!status) status = sunder_i_report_proofs(report, s, sunder_i_decide, err);
+    if (!status) status = sunder_i_report_proofs(report, s, sunder_i_decide, false, err);
     if (!status) status = sunder_i_report_blockers(report, s, err);
     status = pass_progress(s, PROVED, status, err);
     if (!status) trace_conflicts(s, report);
@@ -283,15 +283,15 @@ static sunder_status renumber_report(sunder_i_solver *s, sunder_report *report, 
     return status;
 }
 
-/* Lists the conflicts of a layout with their reasons and proofs. */
-static sunder_status find_reasons(sunder_i_solver *s, sunder_report *report, sunder_error *err)
+/* Lists the conflicts of a layout with their reasons and proofs. one_each: one proof for each cluster is enough. */
+static sunder_status find_reasons(sunder_i_solver *s, sunder_report *report, bool one_each, sunder_error *err)
 {
     sunder_i_solver_forget_clusters(s);
     sunder_i_solver_end_holding(s);
     sunder_status status = relate_last(s, err);
     if (!status) status = sunder_i_report_cover_diagonals(s, err);
     if (!status) status = sunder_i_report_conflicts(report, &s->model, &s->placement, &s->now, true, err);
-    return status ? status : sunder_i_report_proofs(report, s, sunder_i_decide, err);
+    return status ? status : sunder_i_report_proofs(report, s, sunder_i_decide, one_each, err);
 }
 
 /* Lays a layer out anew in place of the layout at hand. */
@@ -306,10 +306,10 @@ static sunder_status lay_out_again(sunder_i_solver *s, const sunder_layer *layer
 }
 
 /* Lists the conflicts of a layout, and notes what influenced each other in it. */
-static sunder_status look_at_layout(sunder_i_solver *s, sunder_i_hiding *hiding, sunder_report *report,
+static sunder_status look_at_layout(sunder_i_solver *s, sunder_i_hiding *hiding, sunder_report *report, bool one_each,
                                     sunder_error *err)
 {
-    const sunder_status status = find_reasons(s, report, err);
+    const sunder_status status = find_reasons(s, report, one_each, err);
     if (status || !s->model.rules.keep_worlds) return status;
     return sunder_i_influence_add(&hiding->influence, s, report, err);
 }
@@ -320,7 +320,7 @@ static sunder_status try_choice(sunder_i_solver *s, const sunder_layer *lowered,
 {
     sunder_i_hiding_take_levels(hiding);
     const sunder_status status = lay_out_again(s, lowered, options, hiding->hidden, report, err);
-    return status ? status : look_at_layout(s, hiding, *report, err);
+    return status ? status : look_at_layout(s, hiding, *report, true, err);
 }
 
 /* Shows hidden features again that are in no conflict at their places in the last layout, except in worlds where more
@@ -363,8 +363,10 @@ static sunder_status lay_out_visible(sunder_i_solver *s, const sunder_layer *lay
             status = lay_out_again(s, lowered, with, hiding->hidden, report, err);
         else
             sunder_i_report_forget_conflicts(*report);
-        s->model.rules.effort = hiding->step == SUNDER_I_HIDING_QUICK ? 0 : options->effort;
-        if (!status) status = look_at_layout(s, hiding, *report, err);
+        /* With effort one proof for each cluster is enough: the choice after it changes the cluster. */
+        const bool is_quick = hiding->step == SUNDER_I_HIDING_QUICK;
+        s->model.rules.effort = is_quick ? 0 : options->effort;
+        if (!status) status = look_at_layout(s, hiding, *report, !is_quick, err);
         if (!status) status = sunder_i_hiding_learn(hiding, &s->model, s->layer.number, *report, err);
     }
     if (!status && layer->hiding) status = show_fitting(s, lowered, &thorough, hiding, report, err);

@@ -130,6 +130,7 @@ typedef struct asking {
     const size_t *first; /* [clusters + 1] the index of the first matter of each cluster, and the end */
     const sunder_i_requirement *required;
     size_t required_n;
+    bool one_each;  /* one proof for each cluster is enough */
     uint64_t times; /* the factor by which EFFORT and MOST_EFFORT are multiplied: 1 + MORE_EFFORT times the value of
                      * --effort */
 } asking;
@@ -383,8 +384,8 @@ static sunder_status ask_for_free_place(const asking *g, const matter *m, const 
 {
     sunder_status status = SUNDER_OK;
     double reach = 1;
-    for (uint64_t effort = FIRST_EFFORT;
-         effort <= MOST_EFFORT && *budget && !status && !g->report->proof[m->conflict]; effort *= GROWTH) {
+    for (uint64_t effort = FIRST_EFFORT; effort <= MOST_EFFORT && *budget && !status && !g->report->proof[m->conflict];
+         effort *= GROWTH) {
         const sunder_conflict *c = &g->report->conflict[m->conflict];
         sunder_i_subproblem q = *all;
         sunder_i_list thing = {0};
@@ -438,6 +439,18 @@ static sunder_status ask_one(const asking *g, matter *m, sunder_i_subproblem *q,
     return ask_conflict(g, m, q, pool, err);
 }
 
+/* Is there a proof for one of the conflicts, and is that enough? */
+static bool has_enough(const asking *g, const matter *first, const matter *last)
+{
+    for (const matter *m = first; m < last && g->one_each; m++) {
+        const sunder_proof *proof = g->report->proof[m->conflict];
+        size_t k = 0;
+        while (proof && k < proof->nodes && !proof->node[k].still) k++;
+        if (proof && k == proof->nodes) return true;
+    }
+    return false;
+}
+
 /* Examines all open conflicts of a cluster with the effort FIRST_EFFORT, then those still open with GROWTH times as
  * much, and so on. If `patience` conflicts in a row stay open, the search for proofs ends: there is no further effort.
  * `patience` is PROOFS_IN_VAIN_AT_FIRST for the first effort and PROOFS_IN_VAIN for the second, or less if the first
@@ -455,6 +468,7 @@ static sunder_status ask_cluster(const asking *g, matter *first, const matter *l
         unsigned open = 0, asked = 0;
         for (matter *m = first; m < last && pool && !in_vain && !status; m++) {
             if (!m->open) continue;
+            if (has_enough(g, first, last)) return SUNDER_OK;
             asked++;
             q->effort = effort < pool ? effort : pool;
             status = ask_one(g, m, q, reach, &pool, err);
@@ -471,25 +485,46 @@ static sunder_status ask_cluster(const asking *g, matter *first, const matter *l
     return status;
 }
 
-/* Asks about the conflicts of a cluster once more, if bodies are in rows: these have to keep their order, too. So the
- * rule of rows is in a proof only if none was found without. */
-static sunder_status ask_in_rows(const asking *g, matter *first, const matter *last, sunder_i_subproblem *q,
-                                 sunder_error *err)
+/* Sets the matters of a cluster to what is known at the beginning. */
+static void open_all(const asking *g, matter *first, const matter *last)
 {
-    if (q->model->row_sides == 0) return SUNDER_OK;
-    q->rows = true;
     for (matter *m = first; m < last; m++)
         *m = (matter){.root = m->root,
                       .conflict = m->conflict,
                       .open = g->report->conflict[m->conflict].reason == SUNDER_REASON_UNRESOLVED};
+}
+
+/* Asks about the conflicts of a cluster, if bodies are in rows: these have to keep their order, too. */
+static sunder_status ask_in_rows(const asking *g, matter *first, const matter *last, sunder_i_subproblem *q,
+                                 sunder_error *err)
+{
+    if (q->model->row_sides == 0 || has_enough(g, first, last)) return SUNDER_OK;
+    q->rows = true;
+    open_all(g, first, last);
     const sunder_status status = ask_cluster(g, first, last, q, err);
     q->rows = false;
     return status;
 }
 
-/* Questions about positions in doubles (`still`) are asked after real arithmetic has given all its answers, with an
+/* Asks about the conflicts of a cluster in all ways.
+ *
+ * Questions about positions in doubles (`still`) are asked after real arithmetic has given all its answers, with an
  * effort of their own: they are large and often unanswered, and must not use up the effort for other conflicts of the
- * cluster. */
+ * cluster. The rule of rows is in a proof only if none was found without; but where one proof is enough, it is asked
+ * for first with this rule, since that takes less work. */
+static sunder_status ask_in_all_ways(const asking *g, matter *first, const matter *last, sunder_i_subproblem *q,
+                                     sunder_error *err)
+{
+    sunder_status status = ask_chains(g, first, last, q, NULL, err);
+    if (!status && g->one_each) status = ask_in_rows(g, first, last, q, err);
+    if (g->one_each) open_all(g, first, last);
+    if (!status) status = ask_cluster(g, first, last, q, err);
+    for (matter *m = first; m < last; m++) m->open = m->still;
+    if (!status) status = ask_cluster(g, first, last, q, err);
+    if (!status && !g->one_each) status = ask_in_rows(g, first, last, q, err);
+    return status || has_enough(g, first, last) ? status : ask_crowded(g, first, last, q, err);
+}
+
 static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunder_error *err)
 {
     const asking *g = context;
@@ -508,12 +543,7 @@ static sunder_status ask_clusters(void *context, size_t begin, size_t end, sunde
         q.farthest = farthest_of(q.model, q.reserve, q.reserves);
         sunder_i_reading reading;
         sunder_i_reads_begin(&reading, q.model, first->root);
-        status = ask_chains(g, first, last, &q, NULL, err);
-        if (!status) status = ask_cluster(g, first, last, &q, err);
-        for (matter *m = first; m < last; m++) m->open = m->still;
-        if (!status) status = ask_cluster(g, first, last, &q, err);
-        if (!status) status = ask_in_rows(g, first, last, &q, err);
-        if (!status) status = ask_crowded(g, first, last, &q, err);
+        status = ask_in_all_ways(g, first, last, &q, err);
         sunder_i_reads_end(&reading);
         sunder_i_planes_clear(&planes);
         if (status) return status;
@@ -545,7 +575,7 @@ static size_t group_by_cluster(const sunder_i_solver *s, const sunder_report *re
 }
 
 sunder_status sunder_i_report_proofs(sunder_report *report, const sunder_i_solver *solver,
-                                     sunder_i_decide_subproblem decide, sunder_error *err)
+                                     sunder_i_decide_subproblem decide, bool one_each, sunder_error *err)
 {
     const unsigned threads = solver->model.rules.threads;
     const size_t most = report->conflicts;
@@ -562,7 +592,7 @@ sunder_status sunder_i_report_proofs(sunder_report *report, const sunder_i_solve
         requiring h = {solver, report, listed, required};
         status = sunder_i_parallel(threads, n, SUNDER_I_GRAIN_PAIRS, find_some_requirements, &h, err);
         const uint64_t times = 1 + (uint64_t)(MORE_EFFORT * sunder_i_min(solver->model.rules.effort, MORE_UP_TO));
-        asking g = {solver, report, decide, list, first, required, n, times};
+        asking g = {solver, report, decide, list, first, required, n, one_each, times};
         if (!status) status = sunder_i_parallel(threads, groups, SUNDER_I_GRAIN_WHOLE, ask_clusters, &g, err);
     }
     sunder_i_free_all(listed, list, first, required);

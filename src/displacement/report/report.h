@@ -288,9 +288,10 @@ typedef sunder_status (*sunder_i_decide_subproblem)(const struct sunder_i_subpro
                                                     struct sunder_i_decision *decision, sunder_error *err);
 /* Finds, among the report's conflicts with the reason "unresolved", those that provably have no solution, and sets
  * their reason to "no_room". Marks those as `crowded` for which it is proved only that a few features around the pair
- * have too little room (no_room.c). Keeps a proof of each. */
+ * have too little room (no_room.c). Keeps a proof of each. one_each: for each cluster the work ends with the first
+ * proof that does not rest on the coordinates that corners can have. */
 sunder_status sunder_i_report_proofs(sunder_report *report, const sunder_i_solver *solver,
-                                     sunder_i_decide_subproblem decide, sunder_error *err);
+                                     sunder_i_decide_subproblem decide, bool one_each, sunder_error *err);
 
 /* ---- cluster_needs.c --------------------------------------------------------------------------------------------- */
 

@@ -194,7 +194,7 @@ static size_t ask_for_proofs(size_t side, size_t tell)
     memset(asked_first, 0, sizeof asked_first);
     memset(asked_again, 0, sizeof asked_again);
     told = tell;
-    assert_int_equal(sunder_i_report_proofs(report, &c.solver, decide_in_vain, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_report_proofs(report, &c.solver, decide_in_vain, false, &err), SUNDER_OK);
     const size_t pairs = report->conflicts - 1;
     assert_int_equal(asked_first[1], 1);
     assert_true(asked_again[1] >= 3);
