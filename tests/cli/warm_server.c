@@ -129,9 +129,9 @@ int __libc_start_main(main_function *main, int argc, char **argv, void (*init)(v
     *(void **)&start = dlsym(RTLD_NEXT, "__libc_start_main"); /* as POSIX says, since ISO C has no such conversion */
     const char *name = getenv("SUNDER_WARM_NAME"), *owner = getenv("SUNDER_WARM_OWNER");
     if (name && owner) {
-        /* Half of a short call is spent in the destructors of the libraries. They are left out of GDAL's tools, which
-         * close their files before; the program under test ends as ever. */
-        if (strcmp(name, "sunder") != 0) loader_fini = NULL;
+        /* Half of a short call is spent in the destructors of the libraries. They are left out: all files are closed
+         * before. */
+        loader_fini = NULL;
         argc = serve(name, (pid_t)strtol(owner, NULL, 10));
         argv = words;
     }
