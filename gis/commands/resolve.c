@@ -193,8 +193,7 @@ static bool resolve_room(const gis_options *options, gis_layer_rules *out, gis_e
     out->enlarge = options->given[OPT_ENLARGE] && options->command->bit != GIS_CHECK;
     if (options->command->bit != GIS_CHECK) out->symbol_size = gis_resolve_length(options, OPT_SYMBOL_SIZE);
     out->rigid_where = options->text[OPT_RIGID_WHERE];
-    const char *asked = out->hide               ? "--hide"
-                        : out->trim             ? "--trim"
+    const char *asked = out->trim               ? "--trim"
                         : out->inset            ? "--inset"
                         : out->symbol_size.text ? "--symbol-size"
                         : out->enlarge          ? "--enlarge"
@@ -202,6 +201,8 @@ static bool resolve_room(const gis_options *options, gis_layer_rules *out, gis_e
     for (size_t i = 0; asked && i < sizeof not_with / sizeof *not_with; i++)
         if (options->given[not_with[i]])
             return gis_fail_usage(error, "%s: not with %s", asked, gis_option_table[not_with[i]].names);
+    if (out->hide && options->given[OPT_MAX_MEMORY] && options->given[OPT_PROOF])
+        return gis_fail_usage(error, "--hide: not with --max-memory and --proof");
     if (options->given[OPT_ENLARGE] && (options->given[OPT_SYMBOL] || options->given[OPT_SYMBOL_FIELD]))
         return gis_fail_usage(error, "--enlarge: polygons are made larger, and symbols have their sizes");
     if (options->given[OPT_TRIM] && !options->given[OPT_BARRIER])

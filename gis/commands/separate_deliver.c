@@ -11,11 +11,13 @@ static bool write_page(const gis_separate_run *run, gis_text *page, gis_error *e
 {
     gis_call call = {0};
     gis_result_view view = {0};
+    gis_hiding hiding = {0};
+    if (run->request.rules.hide) run->result.kind->hiding(&run->result, &hiding);
     bool ok = gis_call_list(run->options, &call, error) && run->result.kind->view(&run->result, &view, error);
     const gis_page_request request = {
         .input = &run->input,
         .view = &view,
-        .report = run->request.rules.hide ? run->report : NULL,
+        .hiding = run->request.rules.hide ? &hiding : NULL,
         .summary = &run->summary,
         .unit = gis_separate_unit(run),
         .output = run->to.output,

@@ -100,10 +100,8 @@ static void json_rows(gis_json *out, const sunder_layer_summary *summary)
 }
 
 /* The hidden features of each class, their weight, and its lower bound. */
-static void json_by_class(gis_json *out, const gis_separate_run *run)
+static void json_by_class(gis_json *out, const sunder_hiding_class *class, size_t n)
 {
-    size_t n;
-    const sunder_hiding_class *class = sunder_report_hiding_classes(run->report, &n);
     gis_json_key(out, "by_class");
     gis_json_open(out, '{');
     for (size_t k = 0; k < n; k++) {
@@ -121,15 +119,16 @@ static void json_by_class(gis_json *out, const gis_separate_run *run)
 
 static void json_hidden(gis_json *out, const gis_separate_run *run)
 {
-    sunder_hiding_summary hiding;
-    sunder_report_hiding(run->report, &hiding);
+    gis_hiding all;
+    run->result.kind->hiding(&run->result, &all);
+    const sunder_hiding_summary hiding = all.sum;
     gis_json_key(out, "hidden");
     gis_json_open(out, '{');
     gis_json_put_size(out, "count", hiding.hidden);
     gis_json_put_double(out, "weight", (double)hiding.weight / GIS_HIDING_UNIT);
     gis_json_put_double(out, "lower_bound", (double)hiding.least / GIS_HIDING_UNIT);
     gis_json_put_size(out, "forced", hiding.forced);
-    json_by_class(out, run);
+    json_by_class(out, all.class, all.classes);
     gis_json_put_size(out, "components", hiding.components);
     gis_json_put_size(out, "components_proved", hiding.components_best);
     gis_json_put_size(out, "clauses", hiding.clauses);
@@ -152,9 +151,10 @@ static const char *const rung_word[GIS_RUNGS] = {"trimmed", "inset", "scaled", "
 
 static void json_shrunk(gis_json *out, const gis_separate_run *run)
 {
-    sunder_hiding_summary hiding;
+    gis_hiding all;
     size_t count[GIS_RUNGS] = {0};
-    sunder_report_hiding(run->report, &hiding);
+    run->result.kind->hiding(&run->result, &all);
+    const sunder_hiding_summary hiding = all.sum;
     count_rungs(run, count);
     gis_json_key(out, "shrunk");
     gis_json_open(out, '{');
@@ -338,9 +338,10 @@ static void print_shrunk(const gis_separate_run *run, const sunder_hiding_summar
 
 static void print_hidden(const gis_separate_run *run)
 {
-    sunder_hiding_summary hiding;
+    gis_hiding all;
     if (!run->request.rules.hide && !gis_levels_asked(&run->request.rules)) return;
-    sunder_report_hiding(run->report, &hiding);
+    run->result.kind->hiding(&run->result, &all);
+    const sunder_hiding_summary hiding = all.sum;
     printf("hidden %zu, weight %.6g, at least %.6g is needed; %zu of %zu groups proved\n", hiding.hidden,
            (double)hiding.weight / GIS_HIDING_UNIT, (double)hiding.least / GIS_HIDING_UNIT, hiding.components_best,
            hiding.components);

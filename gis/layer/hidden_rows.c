@@ -8,10 +8,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool begin_hidden(gis_sink *sink, const gis_layer_input *input, gis_sink_layer **layer, gis_error *error)
+bool gis_hidden_begin(gis_sink *sink, const gis_layer_input *input, OGRFieldType id, gis_sink_layer **layer,
+                      gis_error *error)
 {
-    const gis_field fields[] = {{"fid", OFTInteger64, 0}, {"id", gis_id_type(input), 0}, {"class", OFTInteger64, 0},
-                                {"weight", OFTReal, 0},   {"forced", OFTInteger64, 0},   {"because", OFTString, 0}};
+    const gis_field fields[] = {{"fid", OFTInteger64, 0},    {"id", id, 0},
+                                {"class", OFTInteger64, 0},  {"weight", OFTReal, 0},
+                                {"forced", OFTInteger64, 0}, {"because", OFTString, 0}};
     const gis_sink_layer_request request = {.suffix = "hidden",
                                             .type = OGR_L_GetGeomType(gis_source_layer(input->source)),
                                             .crs = gis_source_crs(input->source),
@@ -42,13 +44,34 @@ const sunder_clause **gis_hidden_reasons(const sunder_report *report, size_t n)
     return reason;
 }
 
+gis_hidden_row gis_hidden_row_of(size_t feature, sunder_hiding_cost cost, const sunder_clause *why)
+{
+    return (gis_hidden_row){feature, cost, why->thing, why->things, why->proved, why->proved && why->members == 1};
+}
+
+bool gis_hidden_list(const gis_layer_input *input, const sunder_report *report, gis_hidden_row **list, size_t *n,
+                     gis_error *error)
+{
+    size_t hidden = 0;
+    for (size_t i = 0; i < input->n; i++) hidden += sunder_report_status(report, i) == SUNDER_FEATURE_HIDDEN;
+    const sunder_clause **reason = gis_hidden_reasons(report, input->n);
+    *list = malloc((hidden + 1) * sizeof **list);
+    *n = 0;
+    for (size_t i = 0; reason && *list && i < input->n; i++)
+        if (sunder_report_status(report, i) == SUNDER_FEATURE_HIDDEN)
+            (*list)[(*n)++] = gis_hidden_row_of(i, gis_layer_hiding_cost(input, i), reason[i]);
+    const bool ok = reason && *list;
+    free(reason);
+    return ok || gis_no_memory(error);
+}
+
 /* Writes "tentative: " before the things of a clause without a proof. */
-static bool put_because(const gis_things *things, const sunder_clause *why, gis_conflict_texts *scratch,
+static bool put_because(const gis_things *things, const gis_hidden_row *row, gis_conflict_texts *scratch,
                         gis_value *value, gis_error *error)
 {
     static const char mark[] = "tentative: ";
-    if (!gis_things_value(things, why->thing, why->things, &scratch->blocked_by, value, error)) return false;
-    if (why->proved) return true;
+    if (!gis_things_value(things, row->thing, row->things, &scratch->blocked_by, value, error)) return false;
+    if (row->proved) return true;
     const size_t length = strlen(scratch->blocked_by);
     char *text = malloc(length + sizeof mark);
     if (!text) return gis_no_memory(error);
@@ -59,38 +82,22 @@ static bool put_because(const gis_things *things, const sunder_clause *why, gis_
     return true;
 }
 
-static bool write_hidden(gis_sink_layer *layer, const gis_layer_input *input, size_t i, const sunder_clause *why,
-                         gis_error *error)
+bool gis_hidden_put(gis_sink_layer *layer, const gis_hidden_row *row, const gis_things *things, OGRGeometryH geometry,
+                    gis_error *error)
 {
-    const gis_things things = gis_things_of(input);
-    const sunder_hiding_cost cost = gis_layer_hiding_cost(input, i);
     const gis_value none = {.kind = GIS_NULL};
     gis_conflict_texts scratch = {0};
     gis_value values[] = {
-        gis_fid_value(input, i),
+        gis_fid_as_value(things->fid(things->of, row->feature)),
         none,
-        cost.hierarchy == GIS_LAST_CLASS ? none : (gis_value){GIS_INTEGER, {.integer = cost.hierarchy}},
-        {GIS_REAL, {.real = (double)cost.weight / GIS_HIDING_UNIT}},
-        {GIS_INTEGER, {.integer = why->proved && why->members == 1}},
+        row->cost.hierarchy == GIS_LAST_CLASS ? none : (gis_value){GIS_INTEGER, {.integer = row->cost.hierarchy}},
+        {GIS_REAL, {.real = (double)row->cost.weight / GIS_HIDING_UNIT}},
+        {GIS_INTEGER, {.integer = row->forced}},
         none,
     };
-    bool ok = gis_go_on(error) && gis_id_value(input, i, &scratch.id[0], &values[1], error) &&
-              put_because(&things, why, &scratch, &values[5], error);
-    OGRGeometryH geometry = ok ? OGR_G_Clone(gis_source_geometry(input->source, i)) : NULL;
-    ok = ok && gis_sink_write(layer, NULL, geometry, values, error);
+    bool ok = gis_go_on(error) && things->id(things->of, row->feature, &scratch.id[0], &values[1], error) &&
+              put_because(things, row, &scratch, &values[5], error);
+    ok = ok && gis_sink_write(layer, NULL, OGR_G_Clone(geometry), values, error);
     gis_conflict_texts_clear(&scratch);
-    return ok;
-}
-
-bool gis_write_hidden(gis_sink *sink, const gis_layer_input *input, const sunder_report *report, gis_error *error)
-{
-    gis_sink_layer *layer;
-    if (!begin_hidden(sink, input, &layer, error)) return false;
-    const sunder_clause **reason = gis_hidden_reasons(report, input->n);
-    bool ok = reason || gis_no_memory(error);
-    for (size_t i = 0; i < input->n && ok; i++)
-        if (sunder_report_status(report, i) == SUNDER_FEATURE_HIDDEN)
-            ok = write_hidden(layer, input, i, reason[i], error);
-    free(reason);
     return ok;
 }

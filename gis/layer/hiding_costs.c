@@ -33,7 +33,7 @@ sunder_hiding_cost gis_layer_hiding_cost(const gis_layer_input *input, size_t i)
                                 weight_of(input->request->rules.hide_weighting, area)};
 }
 
-static bool check_class(const gis_layer_input *input, size_t i, gis_error *error)
+bool gis_layer_check_class(const gis_layer_input *input, size_t i, gis_error *error)
 {
     if (input->hierarchy_field < 0 || input->feature[i].ignored) return true;
     const double value = class_value(input, i);
@@ -48,7 +48,7 @@ bool gis_layer_mark_hidden(gis_layer_input *input, gis_error *error)
     const int field = input->hidden_field;
     for (size_t i = 0; field >= 0 && i < input->n; i++) {
         OGRFeatureH feature = gis_source_feature(input->source, i);
-        if (!check_class(input, i, error)) return false;
+        if (!gis_layer_check_class(input, i, error)) return false;
         if (gis_field_is_blank(feature, field) || gis_field_number(feature, field) == 0) continue;
         if (gis_layer_hiding_cost(input, i).hierarchy) input->feature[i].ignored = true;
     }
@@ -62,7 +62,7 @@ bool gis_layer_set_hiding(gis_layer_input *input, gis_error *error)
     sunder_hiding_cost *cost = malloc((input->n + 1) * sizeof *cost);
     bool ok = cost || gis_no_memory(error);
     for (size_t i = 0; i < input->n && ok; i++) {
-        ok = check_class(input, i, error);
+        ok = gis_layer_check_class(input, i, error);
         cost[i] = ok && !input->feature[i].ignored ? gis_layer_hiding_cost(input, i) : (sunder_hiding_cost){0, 1};
     }
     if (ok && sunder_layer_set_hiding(input->layer, cost, &why) != SUNDER_OK)

@@ -137,6 +137,8 @@ bool gis_layer_blocks(gis_layer_input *input, gis_error *error);
 bool gis_layer_weights(gis_layer_input *input, gis_error *error);
 bool gis_layer_limits(gis_layer_input *input, gis_error *error);
 bool gis_layer_rows(gis_layer_input *input, gis_error *error);
+/* Is the class of feature i, if it has one, a whole number? Otherwise fails with an error that names the feature. */
+bool gis_layer_check_class(const gis_layer_input *input, size_t i, gis_error *error);
 /* What it costs to hide feature i, and the same for all of them. */
 sunder_hiding_cost gis_layer_hiding_cost(const gis_layer_input *input, size_t i);
 /* Has what is hidden in a result ignored, except for features of class 0. */

@@ -4,6 +4,7 @@
 #define GIS_LAYER_OUTPUT_H
 
 #include "layer/layer_input.h"
+#include "layer/result_view.h"
 #include "layer/rows.h"
 
 /* Where the arrow of feature i starts: at the point itself (gis_layer_point()), or at the anchor of a polygon. */
@@ -20,11 +21,21 @@ bool gis_write_symbols_anew(gis_sink *sink, const gis_layer_input *input, bool m
 /* Writes LAYER_symbols: the symbols of points at their new places. */
 bool gis_write_symbols(gis_sink *sink, const gis_layer_input *input, const sunder_report *report, gis_error *error);
 
-/* Writes LAYER_hidden: the hidden features where they stood, and why each is hidden (hidden_rows.c). */
 /* Returns an array [n], which the caller frees: the clause that explains why a feature is hidden; NULL where there is
- * none. Returns NULL if memory is out. */
+ * none. Returns NULL if memory is out (hidden_rows.c). */
 const sunder_clause **gis_hidden_reasons(const sunder_report *report, size_t n);
-bool gis_write_hidden(gis_sink *sink, const gis_layer_input *input, const sunder_report *report, gis_error *error);
+/* Makes the row of a feature that is hidden for this reason. */
+gis_hidden_row gis_hidden_row_of(size_t feature, sunder_hiding_cost cost, const sunder_clause *why);
+/* Lists the hidden features of a layer in memory, in input order. The caller frees the list; the things are the
+ * report's. */
+bool gis_hidden_list(const gis_layer_input *input, const sunder_report *report, gis_hidden_row **list, size_t *n,
+                     gis_error *error);
+
+/* Adds LAYER_hidden: the hidden features where they stood, and why each is hidden. id: the type of its column. */
+bool gis_hidden_begin(gis_sink *sink, const gis_layer_input *input, OGRFieldType id, gis_sink_layer **layer,
+                      gis_error *error);
+bool gis_hidden_put(gis_sink_layer *layer, const gis_hidden_row *row, const gis_things *things, OGRGeometryH geometry,
+                    gis_error *error);
 
 /* A feature's FID as a value; null if it has none. */
 gis_value gis_fid_value(const gis_layer_input *input, size_t feature);

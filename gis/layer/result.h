@@ -24,6 +24,10 @@ typedef bool gis_push_visit(void *user, const sunder_push *push, const gis_thing
 typedef bool gis_house_row_visit(void *user, const sunder_row *row, GIntBig least_fid, const double *xy,
                                  gis_error *error);
 
+/* geometry: that of the feature in the source; things: names of the things of the row, and the id of its feature. */
+typedef bool gis_hidden_visit(void *user, const gis_hidden_row *row, const gis_things *things, OGRGeometryH geometry,
+                              gis_error *error);
+
 typedef struct gis_result gis_result;
 
 /* The functions of one implementation. */
@@ -41,8 +45,10 @@ typedef struct gis_result_kind {
     bool (*rows)(const gis_result *result, gis_house_row_visit *visit, void *user, gis_error *error);
     /* Adds the layer of symbols to the sink and writes it. */
     bool (*symbols)(const gis_result *result, gis_sink *sink, gis_error *error);
-    /* Adds the layer of hidden features to the sink and writes it. NULL: nothing can be hidden. */
-    bool (*hidden)(const gis_result *result, gis_sink *sink, gis_error *error);
+    /* Visits the hidden features in input order. */
+    bool (*hidden)(const gis_result *result, gis_hidden_visit *visit, void *user, gis_error *error);
+    /* Gets the sums of what is hidden or smaller. */
+    void (*hiding)(const gis_result *result, gis_hiding *hiding);
     /* Writes the file of --proof. Fails as gis_proof_print() does. */
     bool (*proof)(const gis_result *result, const sunder_layer_summary *summary, FILE *to, gis_error *error);
     /* Opens a view for drawing the layer, which must be closed in any case. */

@@ -145,9 +145,22 @@ static bool write_symbols(const gis_result *r, gis_sink *sink, gis_error *error)
     return gis_write_symbols(sink, r->input, r->of, error);
 }
 
-static bool write_hidden(const gis_result *r, gis_sink *sink, gis_error *error)
+static bool visit_hidden(const gis_result *r, gis_hidden_visit *visit, void *user, gis_error *error)
 {
-    return gis_write_hidden(sink, r->input, r->of, error);
+    const gis_things things = gis_things_of(r->input);
+    gis_hidden_row *list;
+    size_t n;
+    bool ok = gis_hidden_list(r->input, r->of, &list, &n, error);
+    for (size_t k = 0; k < n && ok; k++)
+        ok = visit(user, &list[k], &things, gis_source_geometry(r->input->source, list[k].feature), error);
+    free(list);
+    return ok;
+}
+
+static void sum_hiding(const gis_result *r, gis_hiding *hiding)
+{
+    sunder_report_hiding(r->of, &hiding->sum);
+    hiding->class = sunder_report_hiding_classes(r->of, &hiding->classes);
 }
 
 static bool write_proof(const gis_result *r, const sunder_layer_summary *summary, FILE *to, gis_error *error)
@@ -162,8 +175,8 @@ static OGRFieldType id_type(const gis_result *r) { return gis_id_type(r->input);
 
 gis_result gis_result_held(const gis_layer_input *input, sunder_report *report)
 {
-    static const gis_result_kind kind = {visit_features,       visit_arrows,  visit_conflicts, visit_pushes,
-                                         visit_rows,           write_symbols, write_hidden,    write_proof,
-                                         gis_result_held_view, longest_fid,   id_type};
+    static const gis_result_kind kind = {visit_features, visit_arrows,         visit_conflicts, visit_pushes,
+                                         visit_rows,     write_symbols,        visit_hidden,    sum_hiding,
+                                         write_proof,    gis_result_held_view, longest_fid,     id_type};
     return (gis_result){&kind, input, report};
 }

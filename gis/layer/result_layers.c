@@ -2,6 +2,7 @@
 #include "layer/result.h"
 
 #include "layer/levels.h"
+#include "layer/output.h"
 
 #include "base/interrupt.h"
 
@@ -88,6 +89,19 @@ static bool write_rows(const gis_result *r, gis_sink *sink, gis_error *error)
            r->kind->rows(r, write_house_row, layer, error);
 }
 
+static bool write_hidden_row(void *layer, const gis_hidden_row *row, const gis_things *things, OGRGeometryH geometry,
+                             gis_error *error)
+{
+    return gis_hidden_put(layer, row, things, geometry, error);
+}
+
+static bool write_hidden(const gis_result *r, gis_sink *sink, gis_error *error)
+{
+    gis_sink_layer *layer;
+    return gis_hidden_begin(sink, r->input, r->kind->id_type(r), &layer, error) &&
+           r->kind->hidden(r, write_hidden_row, layer, error);
+}
+
 bool gis_result_write(const gis_result *result, const gis_result_layers *layers, gis_sink *sink, gis_error *error)
 {
     return write_main(result, layers->main, sink, error) &&
@@ -96,5 +110,5 @@ bool gis_result_write(const gis_result *result, const gis_result_layers *layers,
            (!layers->pushes || write_pushes(result, sink, error)) &&
            (!layers->rows || write_rows(result, sink, error)) &&
            (!layers->symbols || result->kind->symbols(result, sink, error)) &&
-           (!layers->hidden || result->kind->hidden(result, sink, error));
+           (!layers->hidden || write_hidden(result, sink, error));
 }

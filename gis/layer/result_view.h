@@ -4,7 +4,7 @@
 #define GIS_RESULT_VIEW_H
 
 #include "base/gis_error.h"
-#include "sunder.h"
+#include "sunder_hiding.h"
 
 #include <ogr_core.h>
 #include <stdint.h>
@@ -29,6 +29,22 @@ typedef struct gis_view_barrier {
     bool area;       /* it has polygons */
 } gis_view_barrier;
 
+/* A hidden feature, and the set of features and barriers that cannot all stay as they are. */
+typedef struct gis_hidden_row {
+    size_t feature;
+    sunder_hiding_cost cost;
+    const size_t *thing; /* [things] ascending, as in sunder_clause */
+    size_t things;
+    bool proved, forced; /* it is proved; and the feature is the only one that may be hidden for it */
+} gis_hidden_row;
+
+/* What is hidden in all, and what is proved of it; the classes are borrowed. */
+typedef struct gis_hiding {
+    sunder_hiding_summary sum;
+    const sunder_hiding_class *class;
+    size_t classes;
+} gis_hiding;
+
 typedef struct gis_result_view {
     void *of; /* passed to each function */
     size_t features, barriers;
@@ -38,6 +54,8 @@ typedef struct gis_result_view {
     bool (*fill_barriers)(void *of, gis_view_barrier *barrier, gis_error *error);
     /* Gets the remaining conflicts, in any order; they are valid until close(). */
     bool (*conflicts)(void *of, const sunder_conflict **conflict, size_t *n, gis_error *error);
+    /* Lists the hidden features, in input order. The caller frees the list; the things are valid until close(). */
+    bool (*hidden)(void *of, gis_hidden_row **hidden, size_t *n, gis_error *error);
     /* Gets the rows of neighbours; they are valid until close(). */
     bool (*rows)(void *of, const sunder_row **row, size_t *n, gis_error *error);
     /* Fetch a shape or geometry, only for an item that has something to draw. What is lent is valid until the next one

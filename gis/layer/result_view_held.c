@@ -2,6 +2,7 @@
 #include "base/interrupt.h"
 #include "geometry/gis_box.h"
 #include "layer/levels.h"
+#include "layer/output.h"
 #include "layer/result_held.h"
 
 #include <math.h>
@@ -65,6 +66,12 @@ static bool list_conflicts(void *of, const sunder_conflict **conflict, size_t *n
     return true;
 }
 
+static bool list_hidden(void *of, gis_hidden_row **hidden, size_t *n, gis_error *error)
+{
+    const gis_result *held = of;
+    return gis_hidden_list(held->input, held->of, hidden, n, error);
+}
+
 static bool list_rows(void *of, const sunder_row **row, size_t *n, gis_error *error)
 {
     (void)error;
@@ -118,9 +125,10 @@ static void close_nothing(void *of) { (void)of; }
 bool gis_result_held_view(const gis_result *result, gis_result_view *out, gis_error *error)
 {
     (void)error;
-    *out = (gis_result_view){
-        (void *)result, result->input->n, result->input->barriers.n, fill_features,    fill_barriers, list_conflicts,
-        list_rows,      feature_shape,    feature_shape_at,          barrier_geometry, feature_name,  barrier_name,
-        close_nothing};
+    *out = (gis_result_view){(void *)result,   result->input->n, result->input->barriers.n,
+                             fill_features,    fill_barriers,    list_conflicts,
+                             list_hidden,      list_rows,        feature_shape,
+                             feature_shape_at, barrier_geometry, feature_name,
+                             barrier_name,     close_nothing};
     return true;
 }

@@ -10,41 +10,15 @@
 
 enum { HIDDEN_ROWS = 100, HIDDEN_PLACES = 4, MOST_NAMED = 6 };
 
-/* A hidden feature, what hiding it costs, and the reason. */
-typedef struct hidden {
-    size_t feature;
-    sunder_hiding_cost cost;
-    const sunder_clause *why;
-} hidden;
-
 /* ---- What is hidden ---------------------------------------------------------------------------------------------- */
 
 /* The most important class comes first, and in it the greatest weight. */
 static int most_important_first(const void *left, const void *right)
 {
-    const hidden *a = left, *b = right;
+    const gis_hidden_row *a = left, *b = right;
     if (a->cost.hierarchy != b->cost.hierarchy) return a->cost.hierarchy < b->cost.hierarchy ? -1 : 1;
     if (a->cost.weight != b->cost.weight) return a->cost.weight > b->cost.weight ? -1 : 1;
     return (a->feature > b->feature) - (a->feature < b->feature);
-}
-
-/* Lists what is hidden, and sets *n to their number. The caller frees the list. Returns NULL if memory is out. */
-static hidden *list_hidden(const gis_page_model *model, size_t *n)
-{
-    const sunder_report *report = model->request->report;
-    const sunder_clause **reason = gis_hidden_reasons(report, model->n);
-    hidden *list = malloc((model->n + 1) * sizeof *list);
-    *n = 0;
-    for (size_t f = 0; reason && list && f < model->n; f++)
-        if (sunder_report_status(report, f) == SUNDER_FEATURE_HIDDEN)
-            list[(*n)++] = (hidden){f, gis_layer_hiding_cost(model->request->input, f), reason[f]};
-    if (reason && list && *n) qsort(list, *n, sizeof *list, most_important_first);
-    if (!reason) {
-        free(list);
-        list = NULL;
-    }
-    free(reason);
-    return list;
 }
 
 /* ---- Its sums ---------------------------------------------------------------------------------------------------- */
@@ -64,10 +38,8 @@ static void add_weight(int64_t weight, gis_text *to)
 
 static void add_sums(const gis_page_model *model, gis_text *to)
 {
-    sunder_hiding_summary hiding;
-    size_t n;
-    const sunder_hiding_class *class = sunder_report_hiding_classes(model->request->report, &n);
-    sunder_report_hiding(model->request->report, &hiding);
+    const sunder_hiding_summary hiding = model->request->hiding->sum;
+    const sunder_hiding_class *class = model->request->hiding->class;
     gis_text_add(to, "<p class=\"note\">");
     gis_page_add_number_of(to, hiding.hidden, "feature is", "features are");
     gis_text_add(to, " left out, since not all can be given room. They form ");
@@ -77,7 +49,7 @@ static void add_sums(const gis_page_model *model, gis_text *to)
     gis_text_add(to, " are proved to be the best choice.</p>\n<table class=\"counts\"><caption>What is hidden, by class"
                      "</caption><thead><tr><th scope=\"col\">class</th><th scope=\"col\">features</th>"
                      "<th scope=\"col\">weight</th><th scope=\"col\">at least</th></tr></thead><tbody>\n");
-    for (size_t k = 0; k < n; k++) {
+    for (size_t k = 0; k < model->request->hiding->classes; k++) {
         gis_text_add(to, "<tr><th scope=\"row\">");
         add_class(class[k].hierarchy, to);
         gis_text_print(to, "</th><td class=\"number\">%zu</td>", class[k].hidden);
@@ -90,7 +62,7 @@ static void add_sums(const gis_page_model *model, gis_text *to)
 
 /* ---- The table, and close-ups ------------------------------------------------------------------------------------ */
 
-static gis_page_place place_of(const gis_page_model *model, const hidden *of)
+static gis_page_place place_of(const gis_page_model *model, const gis_hidden_row *of)
 {
     gis_page_place place = {.feature = of->feature};
     double box[4];
@@ -99,29 +71,29 @@ static gis_page_place place_of(const gis_page_model *model, const hidden *of)
     return place;
 }
 
-static bool add_things(const gis_page_model *model, const hidden *of, gis_text *to, gis_error *error)
+static bool add_things(const gis_page_model *model, const gis_hidden_row *of, gis_text *to, gis_error *error)
 {
     size_t named = 0;
-    for (size_t k = 0; k < of->why->things && named < MOST_NAMED; k++) {
-        if (of->why->thing[k] == of->feature) continue;
+    for (size_t k = 0; k < of->things && named < MOST_NAMED; k++) {
+        if (of->thing[k] == of->feature) continue;
         if (named++) gis_text_add(to, ", ");
-        if (!gis_page_add_name(model, of->why->thing[k], to, error)) return false;
+        if (!gis_page_add_name(model, of->thing[k], to, error)) return false;
     }
-    if (of->why->things > named + 1) gis_text_print(to, " and %zu more", of->why->things - named - 1);
+    if (of->things > named + 1) gis_text_print(to, " and %zu more", of->things - named - 1);
     return true;
 }
 
-static bool add_row(const gis_page_model *model, const hidden *of, gis_text *to, gis_error *error)
+static bool add_row(const gis_page_model *model, const gis_hidden_row *of, gis_text *to, gis_error *error)
 {
     const gis_page_place place = place_of(model, of);
-    gis_text_print(to, "<tr class=\"%s\"><td>", of->why->proved ? "proved" : "open");
+    gis_text_print(to, "<tr class=\"%s\"><td>", of->proved ? "proved" : "open");
     gis_page_open_link(place.window, to);
     if (!gis_page_add_name(model, of->feature, to, error)) return false;
     gis_text_print(to, "</a></td><td data-value=\"%u\">", of->cost.hierarchy);
     add_class(of->cost.hierarchy, to);
     gis_text_add(to, "</td>");
     add_weight(of->cost.weight, to);
-    gis_text_print(to, "<td>%s</td><td>", of->why->proved ? "proved" : "assumed");
+    gis_text_print(to, "<td>%s</td><td>", of->proved ? "proved" : "assumed");
     if (!add_things(model, of, to, error)) return false;
     gis_text_add(to, "</td></tr>\n");
     return true;
@@ -135,7 +107,7 @@ static bool add_caption(const gis_page_model *model, const gis_page_place *place
     return true;
 }
 
-static bool add_table(const gis_page_model *model, const hidden *list, size_t n, gis_text *to, gis_error *error)
+static bool add_table(const gis_page_model *model, const gis_hidden_row *list, size_t n, gis_text *to, gis_error *error)
 {
     gis_text_add(to, "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Hidden features. Arrow keys go "
                      "through the table.\"><table class=\"sortable\"><thead><tr><th scope=\"col\">feature</th>"
@@ -152,7 +124,8 @@ static bool add_table(const gis_page_model *model, const hidden *list, size_t n,
     return true;
 }
 
-static bool add_places(const gis_page_model *model, const hidden *list, size_t n, gis_text *to, gis_error *error)
+static bool add_places(const gis_page_model *model, const gis_hidden_row *list, size_t n, gis_text *to,
+                       gis_error *error)
 {
     gis_text_add(to, "<ol class=\"places\">\n");
     for (size_t k = 0; k < n && k < HIDDEN_PLACES; k++) {
@@ -165,13 +138,14 @@ static bool add_places(const gis_page_model *model, const hidden *list, size_t n
 
 bool gis_page_hidden(const gis_page_model *model, const gis_thinning *thinning, gis_text *to, gis_error *error)
 {
-    size_t n;
+    const gis_result_view *view = model->request->view;
+    gis_hidden_row *list = NULL;
+    size_t n = 0;
     (void)thinning;
-    if (!model->request->report) return true;
-    hidden *list = list_hidden(model, &n);
-    if (!list) return gis_no_memory(error);
-    bool ok = true;
-    if (n) {
+    if (!model->request->hiding) return true;
+    bool ok = view->hidden(view->of, &list, &n, error);
+    if (ok && n) qsort(list, n, sizeof *list, most_important_first);
+    if (ok && n) {
         gis_text_add(to, "<section id=\"hidden\"><h2>What is left out, and why</h2>\n");
         add_sums(model, to);
         ok = add_table(model, list, n, to, error) && add_places(model, list, n, to, error);

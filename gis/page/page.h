@@ -15,7 +15,7 @@ typedef struct gis_page_option {
 typedef struct gis_page_request {
     const gis_layer_input *input; /* only its rules and the names of the source are used */
     const gis_result_view *view;
-    const sunder_report *report; /* NULL unless features may be hidden */
+    const gis_hiding *hiding; /* NULL unless features may be hidden */
     const sunder_layer_summary *summary;
     const char *unit;   /* the name that the CRS gives to the unit of coordinates */
     const char *output; /* the path of the output */

@@ -95,7 +95,8 @@ def main():
         for number, ring in enumerate(make()):
             # Block 1: its members are far from each other. Streets have 45 houses; each 17th house has none. Two
             # houses at the ends of each street are a block by the field `ends`.
-            properties = {"id": f"f{number}", "blk": 1 if number % 29 == 0 else None, "height": 3 + number % 5,
+            properties = {"id": f"f{number}", "blk": 1 if number % 29 == 0 else None, "class": number % 4,
+                          "height": 3 + number % 5,
                           "street": f"street {number // 45}" if number % 17 else None,
                           "ends": number // 45 if number % 45 in (3, 40) else None}
             features.append({"type": "Feature", "properties": properties,

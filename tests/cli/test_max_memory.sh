@@ -6,7 +6,6 @@
 
 alike o.gpkg 99M --gap 3 --effort 0 --max-shift 2
 drawn o.gpkg 103M --gap 3 --effort 0 --max-shift 2
-alike o.gpkg 98.5M --gap 3 --effort 0.05
 alike o.gpkg 98M --gap 2 --effort 0 --no-blocks --allow-jumps --id-field id
 drawn o.gpkg 103M --gap 0.5 --effort 0 --weight sqrt-area --fixed-where 'fid % 9 = 0' --ignore-where 'fid % 11 = 0'
 alike o.shp 99M --gap 3 --effort 0
@@ -23,6 +22,10 @@ jq -e '.rows.rows > 50 and .displacement.cost_rows > 1' whole.json >/dev/null ||
 proof=()
 alike o.gpkg 99M --gap 1.5 --effort 0 --rows auto --max-shift 0.3 --ease 30
 jq -e '.shortfall.pairs > 50' whole.json >/dev/null || fail "few are short: $(jq -c .shortfall whole.json)"
+
+# Hidden features.
+alike o.gpkg 99M --gap 1.5 --effort 0 --max-shift 0.3 --hide --hide-weight 1 --id-field id
+jq -e '.hidden.count > 50' whole.json >/dev/null || fail "few are hidden: $(jq -c .hidden whole.json)"
 
 # Pairs between a least gap and the gap.
 alike o.gpkg 99M --gap 1.5 --least-gap 0.5 --effort 0 --rows auto --max-shift 0.3

@@ -61,7 +61,8 @@ for command in separate check sum pair buffer route plan merge follow; do
     "$SUNDER" $command --help | grep -oE -- '--[a-z-]+ [a-z0-9-]+(\|[a-z0-9-]+)+' >choices
     while read -r option words; do
         case $command,$option in
-        separate,--hide-weight | separate,--crossed) with=(--hide) ;; # without that they are refused: test_options.sh
+        separate,--hide-weight | separate,--crossed | plan,--hide-weight | plan,--crossed)
+            with=(--hide) ;; # without that they are refused: test_options.sh
         check,--crossed) with=(--inset 1) ;;
         *) with=() ;;
         esac

@@ -1,5 +1,5 @@
 /* A layer that is separated in parts and joined again gives the result of the whole layer, to the last bit, for every
- * number of shards: moves, statuses, blocks, conflicts, pushes, sums.
+ * number of shards: moves, statuses, blocks, conflicts, pushes, sums, what is hidden and why.
  *
  * Layers are towns of slanted boxes, some of them crowded, some in rows that touch, some fixed or limited, some in
  * blocks whose members are far from each other. Some have barriers: roads through the whole town or of a few metres,
@@ -10,6 +10,7 @@
 
 #include <cmocka.h>
 
+#include "layer/output.h"
 #include "random.h"
 #include "scratch.h"
 #include "shards/parts/join.h"
@@ -28,6 +29,8 @@ typedef struct town {
     sunder_layer_options how;
     sunder_barrier barrier[BARRIERS];
     size_t barriers;
+    bool hides;
+    sunder_hiding_cost cost[MOST];
 } town;
 
 static const sunder_shape *box_at(rng *r, double x, double y, double w, double h, bool slanted)
@@ -172,6 +175,14 @@ static void lay_barriers(town *t, rng *r, bool any)
     t->how.effort = 0;
 }
 
+/* Draws what it costs to hide features, some of them never. */
+static void draw_costs(town *t, rng *r, bool hides)
+{
+    t->hides = hides;
+    for (size_t k = 0; k < t->n && hides; k++)
+        t->cost[k] = (sunder_hiding_cost){(uint32_t)rng_int(r, 0, 3), rng_int(r, 1, 9)};
+}
+
 static void clear_barriers(town *t)
 {
     for (size_t k = 0; k < t->barriers; k++) {
@@ -213,7 +224,8 @@ static gis_spool *spool_of(const town *t, unsigned shards)
     gis_error error;
     assert_true(gis_spool_create(scratch_directory(), NULL, &writer, &error));
     for (size_t k = 0; k < t->n; k++) {
-        const gis_spool_feature f = {.index = k, .fid = (int64_t)k + 1, .demands = t->feature[k], .start = {NAN, NAN}};
+        gis_spool_feature f = {.index = k, .fid = (int64_t)k + 1, .demands = t->feature[k], .start = {NAN, NAN}};
+        if (t->hides) f.hiding = t->cost[k];
         assert_true(gis_spool_add(writer, &f, &error));
     }
     assert_true(gis_spool_finish(writer, shards, NULL, NULL, &error));
@@ -300,6 +312,38 @@ static void demand_same_sums(const sunder_report *whole, const gis_joined *j)
     assert_true(s.cost == t->cost && s.lower_bound == t->lower_bound && s.verified == t->verified);
 }
 
+/* The same features are hidden, for the same reasons, and the same is proved of it. */
+static size_t demand_same_hiding(const town *t, const sunder_report *whole, gis_joined *j)
+{
+    gis_hiding all;
+    bool any;
+    gis_error error;
+    sunder_report_hiding(whole, &all.sum);
+    all.class = sunder_report_hiding_classes(whole, &all.classes);
+    assert_memory_equal(&all.sum, &j->hiding.sum, sizeof all.sum);
+    assert_int_equal(all.classes, j->hiding.classes);
+    for (size_t k = 0; k < all.classes; k++) {
+        assert_int_equal(all.class[k].hierarchy, j->hiding.class[k].hierarchy);
+        assert_int_equal(all.class[k].hidden, j->hiding.class[k].hidden);
+        assert_int_equal(all.class[k].weight, j->hiding.class[k].weight);
+        assert_int_equal(all.class[k].least, j->hiding.class[k].least);
+    }
+    const sunder_clause **reason = gis_hidden_reasons(whole, t->n);
+    assert_non_null(reason);
+    for (size_t k = 0; k < t->n; k++) {
+        if (sunder_report_status(whole, k) != SUNDER_FEATURE_HIDDEN) continue;
+        assert_true(gis_sorted_results_next(&j->hidden, &any, &error) && any);
+        const gis_part_hidden *h = j->hidden.one.hidden;
+        assert_true(h->index == k && h->cost.hierarchy == t->cost[k].hierarchy && h->cost.weight == t->cost[k].weight);
+        assert_true(h->proved == reason[k]->proved && h->things == reason[k]->things);
+        for (size_t i = 0; i < h->things; i++)
+            assert_int_equal(number_of(t, reason[k]->thing[i]), j->hidden.one.blocker[i]);
+    }
+    assert_int_equal(all.sum.hidden, j->hidden.n);
+    free(reason);
+    return all.sum.hidden;
+}
+
 /* The same rows of houses, with the same figures. */
 static void demand_same_rows(const town *t, const sunder_report *whole, const gis_joined *j)
 {
@@ -350,7 +394,7 @@ static void separate_parts(gis_layout *layout, unsigned shards, bool apart)
     gis_part_result_clear(&result);
 }
 
-static unsigned compare(const town *t, const sunder_report *whole, unsigned shards, double halo)
+static unsigned compare(const town *t, const sunder_report *whole, unsigned shards, double halo, size_t *hidden)
 {
     gis_spool *spool = spool_of(t, shards);
     gis_part_file file[7];
@@ -364,6 +408,7 @@ static unsigned compare(const town *t, const sunder_report *whole, unsigned shar
     if (halo >= 0) layout.halo = halo;
     layout.barriers = barriers_of(t);
     layout.features = t->n;
+    layout.hides = t->hides;
     separate_parts(&layout, shards, apart);
     for (unsigned k = 0; k < files; k++) {
         const gis_part_stamp stamp = {.version = "1", .shard = k + 1, .shards = files};
@@ -374,6 +419,7 @@ static unsigned compare(const town *t, const sunder_report *whole, unsigned shar
     demand_same_conflicts(t, whole, &joined);
     demand_same_sums(whole, &joined);
     demand_same_rows(t, whole, &joined);
+    *hidden += demand_same_hiding(t, whole, &joined);
     const unsigned more = joined.runs - shards;
     gis_joined_clear(&joined);
     for (unsigned k = 0; k < files; k++) gis_part_file_close(&file[k]);
@@ -387,7 +433,7 @@ static void separate_towns(size_t n, bool barriers, bool rows)
 {
     static town t;
     unsigned more = 0;
-    size_t moved = 0, neighbours = 0;
+    size_t moved = 0, neighbours = 0, hidden = 0;
     for (size_t number = 0; number < test_count(4); number++) {
         rng r = rng_start(test_seed(), (rows ? 8400 : barriers ? 8300 : 8200) + number);
         if (rows)
@@ -395,26 +441,30 @@ static void separate_towns(size_t n, bool barriers, bool rows)
         else
             lay_out(&t, &r, n);
         lay_barriers(&t, &r, barriers);
+        draw_costs(&t, &r, barriers && number % 2 == 0);
         sunder_layer *layer;
         sunder_report *whole;
         sunder_error why;
         sunder_layer_summary s;
         assert_int_equal(sunder_layer_new(t.feature, t.n, &layer, &why), SUNDER_OK);
         assert_int_equal(sunder_layer_set_barriers(layer, t.barrier, t.barriers, &why), SUNDER_OK);
+        if (t.hides) assert_int_equal(sunder_layer_set_hiding(layer, t.cost, &why), SUNDER_OK);
         assert_int_equal(sunder_layer_separate(layer, &t.how, &whole, &why), SUNDER_OK);
         sunder_report_summary(whole, &s);
         moved += s.moved;
         neighbours += s.row_pairs;
-        more += compare(&t, whole, 1, -1) + compare(&t, whole, 2, -1) + compare(&t, whole, 7, -1);
-        more += compare(&t, whole, 7, t.how.gap); /* a small margin around each part */
+        more += compare(&t, whole, 1, -1, &hidden) + compare(&t, whole, 2, -1, &hidden);
+        more += compare(&t, whole, 7, -1, &hidden);
+        more += compare(&t, whole, 7, t.how.gap, &hidden); /* a small margin around each part */
         sunder_report_free(whole);
         sunder_layer_free(layer);
         clear_barriers(&t);
         for (size_t k = 0; k < t.n; k++) sunder_shape_free((sunder_shape *)t.feature[k].shape);
     }
-    print_message("%zu features moved; %u parts were separated once more; %zu neighbours in rows\n", moved, more,
-                  neighbours);
-    assert_true(moved > 0 && more > 0 && (neighbours > 0) == rows);
+    print_message(
+        "%zu features moved; %u parts were separated once more; %zu neighbours in rows; %zu features hidden\n", moved,
+        more, neighbours, hidden);
+    assert_true(moved > 0 && more > 0 && (neighbours > 0) == rows && (hidden > 0) == barriers);
 }
 
 static void test_towns_in_parts(void **state)

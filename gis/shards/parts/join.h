@@ -9,6 +9,7 @@
 #ifndef GIS_SHARDS_JOIN_H
 #define GIS_SHARDS_JOIN_H
 
+#include "layer/result_view.h"
 #include "shards/parts/border_chunks.h"
 #include "shards/parts/part.h"
 #include "shards/parts/sorted_results.h"
@@ -26,7 +27,11 @@ typedef struct gis_joined {
                                    * alone */
     gis_sorted_results conflicts; /* by (a, b): one conflict each */
     gis_sorted_results pushes;    /* by (a, b): one push each */
-    gis_sorted_results trees;     /* by group (its first feature that moves) and place in the group */
+    gis_sorted_results hidden;    /* by feature: the hidden ones */
+    gis_hiding hiding;            /* the sums of what is hidden, with the classes of: */
+    sunder_hiding_class *class;   /* [hiding.classes] */
+    size_t class_room;
+    gis_sorted_results trees;      /* by group (its first feature that moves) and place in the group */
     gis_sorted_results neighbours; /* by the two features: neighbours in rows of houses */
     sunder_row_list row_list;      /* the rows that they form */
     gis_row_place *row_place;      /* [row_places] their features, by number */

@@ -68,6 +68,13 @@ static bool put_tree(gathering *g, const gis_part_result *r, size_t k, gis_error
            gis_sorted_results_add(&g->out->trees, r->tree[k].first, r->tree[k].among, &g->one, error);
 }
 
+static bool put_hidden(gathering *g, const gis_part_result *r, size_t k, gis_error *error)
+{
+    gis_part_result_empty(&g->one);
+    return gis_part_copy_hidden(&g->one, r, k, error) &&
+           gis_sorted_results_add(&g->out->hidden, r->hidden[k].index, 0, &g->one, error);
+}
+
 static bool put_neighbours(gathering *g, const gis_part_result *r, size_t k, gis_error *error)
 {
     const size_t *feature = r->neighbour[k].is.feature;
@@ -88,6 +95,43 @@ static void add_counts(sunder_conflict_counts *to, const sunder_conflict_counts 
     to->inside_blocks += from->inside_blocks;
 }
 
+/* ---- Sums of what is hidden -------------------------------------------------------------------------------------- */
+
+static void add_component(sunder_hiding_summary *to, const sunder_hiding_component *from)
+{
+    to->components++;
+    to->components_best += from->best;
+    to->clauses += from->clauses;
+    to->proved += from->proved;
+    to->forced += from->forced;
+    to->smaller += from->smaller;
+    to->smaller_cost += from->smaller_cost;
+    to->smaller_least += from->smaller_least;
+    if (from->rounds > to->rounds) to->rounds = from->rounds;
+}
+
+/* Adds what a component hides of a class; classes are sorted, and few. */
+static bool add_class(gis_joined *j, const sunder_hiding_class *from, gis_error *error)
+{
+    gis_hiding *to = &j->hiding;
+    size_t at = 0;
+    while (at < to->classes && j->class[at].hierarchy < from->hierarchy) at++;
+    if (at == to->classes || j->class[at].hierarchy != from->hierarchy) {
+        if (!gis_array_reserve(&j->class, &j->class_room, to->classes + 1, sizeof *j->class))
+            return gis_no_memory(error);
+        memmove(j->class + at + 1, j->class + at, (to->classes++ - at) * sizeof *j->class);
+        j->class[at] = (sunder_hiding_class){.hierarchy = from->hierarchy};
+        to->class = j->class;
+    }
+    j->class[at].hidden += from->hidden;
+    j->class[at].weight += from->weight;
+    j->class[at].least += from->least;
+    to->sum.hidden += from->hidden;
+    to->sum.weight += from->weight;
+    to->sum.least += from->least;
+    return true;
+}
+
 static bool put_world(gathering *g, const gis_part_result *r, const gis_part_world *w, gis_error *error)
 {
     sunder_layer_summary *s = &g->out->summary;
@@ -97,12 +141,15 @@ static bool put_world(gathering *g, const gis_part_result *r, const gis_part_wor
     for (size_t k = 0; k < w->conflicts && done; k++) done = put_conflict(g, r, w->conflict + k, error);
     for (size_t k = 0; k < w->pushes && done; k++) done = put_push(g, r, w->push + k, error);
     for (size_t k = 0; k < w->trees && done; k++) done = put_tree(g, r, w->tree + k, error);
+    for (size_t k = 0; k < w->hiddens && done; k++) done = put_hidden(g, r, w->hidden + k, error);
     if (w->loose) return done;
     add_counts(&s->before, &w->before);
     add_counts(&s->after, &w->after);
     s->thin += w->thin;
     s->clusters += w->clusters;
     s->clusters_optimal += w->clusters_optimal;
+    for (size_t k = 0; k < w->components; k++) add_component(&g->out->hiding.sum, &r->component[w->component + k]);
+    for (size_t k = 0; k < w->classes && done; k++) done = add_class(g->out, &r->class[w->class + k], error);
     for (size_t k = w->bound; k < w->bound + w->bounds; k++) {
         sunder_total_add(&g->proved, r->bound[k].proved);
         sunder_total_add(&g->by_pairs, r->bound[k].by_pairs);
@@ -295,6 +342,8 @@ static bool sort_everything(gathering *g, gis_error *error)
     g->any = false;
     if (!gis_sorted_results_sort(&j->trees, keep_once, g, error)) return false;
     g->any = false;
+    if (!gis_sorted_results_sort(&j->hidden, keep_once, g, error)) return false;
+    g->any = false;
     return gis_sorted_results_sort(&j->neighbours, keep_once, g, error);
 }
 
@@ -309,6 +358,7 @@ static bool begin_lists(gis_joined *j, const char *directory, gis_error *error)
            gis_sorted_results_begin(&j->conflicts, directory, "conflicts", error) &&
            gis_sorted_results_begin(&j->pushes, directory, "pushes", error) &&
            gis_sorted_results_begin(&j->trees, directory, "trees", error) &&
+           gis_sorted_results_begin(&j->hidden, directory, "hidden", error) &&
            gis_sorted_results_begin(&j->neighbours, directory, "neighbours", error);
 }
 
@@ -347,6 +397,8 @@ void gis_joined_clear(gis_joined *joined)
     gis_sorted_results_clear(&joined->conflicts);
     gis_sorted_results_clear(&joined->pushes);
     gis_sorted_results_clear(&joined->trees);
+    gis_sorted_results_clear(&joined->hidden);
+    free(joined->class);
     gis_sorted_results_clear(&joined->neighbours);
     sunder_row_list_free(&joined->row_list);
     free(joined->row_place);

@@ -190,6 +190,20 @@ static bool set_rows(gis_part *p, gis_error *error)
     return done || gis_core_failed(error, "a part of the layer", &why);
 }
 
+/* Sets what it costs to hide features, if that is allowed. */
+static bool set_hiding(gis_part *p, gis_error *error)
+{
+    sunder_error why;
+    sunder_layer_set_crossed(p->layer, p->layout->crossed);
+    if (!p->layout->hides) return true;
+    sunder_hiding_cost *cost = malloc((p->n + 1) * sizeof *cost);
+    if (!cost) return gis_no_memory(error);
+    for (size_t k = 0; k < p->n; k++) cost[k] = p->item[k].feature.hiding;
+    const bool done = sunder_layer_set_hiding(p->layer, cost, &why) == SUNDER_OK;
+    free(cost);
+    return done || gis_core_failed(error, "--hide", &why);
+}
+
 /* Tells of a feature that is in two rows, as gis_layer_run() does, and of other errors of the core. */
 static bool tell_failure(const gis_part *p, const sunder_error *why, gis_error *error)
 {
@@ -217,7 +231,8 @@ static bool separate_part(gis_part *p, gis_error *error)
     }
     const bool made = sunder_layer_new(feature, p->n, &p->layer, &why) == SUNDER_OK;
     free(feature);
-    if (made && (!set_sides(p, error) || !set_rows(p, error) || !gis_barriers_set(&p->barriers, p->layer, error)))
+    if (made && (!set_sides(p, error) || !set_rows(p, error) || !gis_barriers_set(&p->barriers, p->layer, error) ||
+                 !set_hiding(p, error)))
         return false;
     if (!made || sunder_layer_separate(p->layer, &options, &p->report, &why) != SUNDER_OK)
         return tell_failure(p, &why, error);

@@ -32,10 +32,12 @@ typedef struct gis_layout {
     double halo;                 /* distance around a shard within which features are read with it; a guess */
     gis_part_block *block, *row; /* the numbered blocks, and the rows of --rows FIELD likewise */
     size_t blocks, rows;
-    double memory;    /* approximate bytes that a process may take; a part that takes much more gets a warning. 0: no
+    double memory; /* approximate bytes that a process may take; a part that takes much more gets a warning. 0: no
                      * limit */
-    bool by_places;   /* the proof identifies features by their places in the input, since FIDs are not unique */
-    const char *name; /* borrowed: of the layer, for messages */
+    bool hides;    /* features may be hidden; set by the caller, like the next one */
+    sunder_crossed crossed; /* what becomes of features that a barrier's line crosses */
+    bool by_places;         /* the proof identifies features by their places in the input, since FIDs are not unique */
+    const char *name;       /* borrowed: of the layer, for messages */
     double *explain, *verify; /* borrowed: the seconds of these stages are added here; NULL: not measured */
 } gis_layout;
 

@@ -49,6 +49,10 @@ bool gis_part_fill_row(gis_part *p, size_t k, gis_error *error);
 bool gis_part_fill_conflict(gis_part *p, size_t number, bool loose, gis_error *error);
 bool gis_part_fill_push(gis_part *p, const sunder_push *push, gis_error *error);
 bool gis_part_fill_tree(gis_part *p, const gis_proof_place *place, gis_error *error);
+/* Adds feature k of the part, which is hidden for this reason. */
+bool gis_part_fill_hidden(gis_part *p, size_t k, const sunder_clause *why, gis_error *error);
+/* Adds the component of clauses with this number in the report, and what it hides by class. */
+bool gis_part_fill_component(gis_part *p, size_t number, gis_error *error);
 bool gis_part_fill_neighbours(gis_part *p, const sunder_row_pair *pair, gis_error *error);
 
 /* ---- part_worlds.c: adds the worlds that have a requested feature, and features in no world

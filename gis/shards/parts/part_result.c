@@ -15,6 +15,10 @@ static const gis_padding holes_of_row[] = {GIS_PADDING_BEHIND(gis_part_row, roun
 static const gis_padding holes_of_conflict[] = {GIS_PADDING_BETWEEN(gis_part_conflict, is.inside_block, is.need_shift),
                                                 GIS_PADDING_BETWEEN(gis_part_conflict, is.by_row, blocker),
                                                 GIS_PADDING_BEHIND(gis_part_conflict, loose)};
+static const gis_padding holes_of_component[] = {GIS_PADDING_BEHIND(sunder_hiding_component, best)};
+static const gis_padding holes_of_class[] = {GIS_PADDING_BETWEEN(sunder_hiding_class, hierarchy, hidden)};
+static const gis_padding holes_of_hidden[] = {GIS_PADDING_BETWEEN(gis_part_hidden, cost.hierarchy, cost.weight),
+                                              GIS_PADDING_BEHIND(gis_part_hidden, forced)};
 static const gis_padding holes_of_still[] = {GIS_PADDING_BEHIND(gis_part_still, status)};
 
 #define HOLES(list) list, sizeof list / sizeof *list
@@ -36,6 +40,9 @@ static const struct list {
              LIST(blocker, blockers, NULL, 0),
              LIST(push, pushes, NULL, 0),
              LIST(tree, trees, NULL, 0),
+             LIST(component, components, HOLES(holes_of_component)),
+             LIST(class, classes, HOLES(holes_of_class)),
+             LIST(hidden, hiddens, HOLES(holes_of_hidden)),
              LIST(name, names, NULL, 0),
              LIST(still, stills, HOLES(holes_of_still)),
              LIST(link, links, NULL, 0),
@@ -110,24 +117,41 @@ bool gis_part_copy_row(gis_part_result *to, const gis_part_result *from, size_t 
     return true;
 }
 
+/* Copies n things from *blocker on, and `names` names from *name on, and sets the two to the places of the copies. */
+static bool copy_things(gis_part_result *to, const gis_part_result *from, size_t n, size_t *blocker, size_t names,
+                        size_t *name, gis_error *error)
+{
+    const size_t first = *name;
+    if (!GIS_PART_MORE(to, blocker, blockers, n, error) || !GIS_PART_MORE(to, name, names, names, error)) return false;
+    if (n) memcpy(to->blocker + to->blockers, from->blocker + *blocker, n * sizeof *to->blocker);
+    *blocker = to->blockers;
+    to->blockers += n;
+    *name = to->names;
+    for (size_t k = 0; k < names; k++) {
+        gis_part_name one = from->name[first + k];
+        if (!gis_part_add_text(to, gis_part_text(from, one.id), &one.id, error)) return false;
+        to->name[to->names++] = one;
+    }
+    return true;
+}
+
 bool gis_part_copy_conflict(gis_part_result *to, const gis_part_result *from, size_t conflict, gis_error *error)
 {
     gis_part_conflict new = from->conflict[conflict];
-    const size_t first = new.name, blockers = new.is.n_blocked_by;
-    if (!GIS_PART_MORE(to, blocker, blockers, blockers, error) || !GIS_PART_MORE(to, name, names, new.names, error) ||
-        !GIS_PART_MORE(to, conflict, conflicts, 1, error))
+    if (!copy_things(to, from, new.is.n_blocked_by, &new.blocker, new.names, &new.name, error) ||
+        !copy_line(to, from, &new.line, error) || !GIS_PART_MORE(to, conflict, conflicts, 1, error))
         return false;
-    if (blockers) memcpy(to->blocker + to->blockers, from->blocker + new.blocker, blockers * sizeof *to->blocker);
-    new.blocker = to->blockers;
-    to->blockers += blockers;
-    new.name = to->names;
-    for (size_t k = 0; k < new.names; k++) {
-        gis_part_name name = from->name[first + k];
-        if (!gis_part_add_text(to, gis_part_text(from, name.id), &name.id, error)) return false;
-        to->name[to->names++] = name;
-    }
-    if (!copy_line(to, from, &new.line, error)) return false;
     to->conflict[to->conflicts++] = new;
+    return true;
+}
+
+bool gis_part_copy_hidden(gis_part_result *to, const gis_part_result *from, size_t hidden, gis_error *error)
+{
+    gis_part_hidden new = from->hidden[hidden];
+    if (!copy_things(to, from, new.things, &new.blocker, new.names, &new.name, error) ||
+        !GIS_PART_MORE(to, hidden, hiddens, 1, error))
+        return false;
+    to->hidden[to->hiddens++] = new;
     return true;
 }
 
@@ -170,26 +194,48 @@ bool gis_part_copy_neighbours(gis_part_result *to, const gis_part_result *from, 
     return true;
 }
 
+gis_part_world gis_part_world_at(const gis_part_result *result)
+{
+    return (gis_part_world){.row = result->rows,
+                            .footprint = result->footprints,
+                            .bound = result->bounds,
+                            .conflict = result->conflicts,
+                            .push = result->pushes,
+                            .tree = result->trees,
+                            .component = result->components,
+                            .class = result->classes,
+                            .hidden = result->hiddens};
+}
+
 bool gis_part_copy_world(gis_part_result *to, const gis_part_result *from, size_t world, gis_error *error)
 {
     const gis_part_world *w = &from->world[world];
     gis_part_world new = *w;
     bool done = true;
-    new.row = to->rows;
-    new.footprint = to->footprints;
-    new.bound = to->bounds;
-    new.conflict = to->conflicts;
-    new.push = to->pushes;
-    new.tree = to->trees;
+    const gis_part_world at = gis_part_world_at(to);
+    new.row = at.row;
+    new.footprint = at.footprint;
+    new.bound = at.bound;
+    new.conflict = at.conflict;
+    new.push = at.push;
+    new.tree = at.tree;
+    new.component = at.component;
+    new.class = at.class;
+    new.hidden = at.hidden;
     for (size_t k = 0; k < w->rows && done; k++) done = gis_part_copy_row(to, from, w->row + k, error);
     for (size_t k = 0; k < w->conflicts && done; k++) done = gis_part_copy_conflict(to, from, w->conflict + k, error);
     for (size_t k = 0; k < w->pushes && done; k++) done = gis_part_copy_push(to, from, w->push + k, error);
     for (size_t k = 0; k < w->trees && done; k++) done = gis_part_copy_tree(to, from, w->tree + k, error);
+    for (size_t k = 0; k < w->hiddens && done; k++) done = gis_part_copy_hidden(to, from, w->hidden + k, error);
     if (!done || !GIS_PART_MORE(to, footprint, footprints, w->footprints, error) ||
-        !GIS_PART_MORE(to, bound, bounds, w->bounds, error) || !GIS_PART_MORE(to, world, worlds, 1, error))
+        !GIS_PART_MORE(to, bound, bounds, w->bounds, error) ||
+        !GIS_PART_MORE(to, component, components, w->components, error) ||
+        !GIS_PART_MORE(to, class, classes, w->classes, error) || !GIS_PART_MORE(to, world, worlds, 1, error))
         return false;
     for (size_t k = 0; k < w->footprints; k++) to->footprint[to->footprints++] = from->footprint[w->footprint + k];
     for (size_t k = 0; k < w->bounds; k++) to->bound[to->bounds++] = from->bound[w->bound + k];
+    for (size_t k = 0; k < w->components; k++) to->component[to->components++] = from->component[w->component + k];
+    for (size_t k = 0; k < w->classes; k++) to->class[to->classes++] = from->class[w->class + k];
     to->world[to->worlds++] = new;
     return true;
 }
@@ -208,7 +254,7 @@ bool gis_part_copy_all(gis_part_result *to, const gis_part_result *from, gis_err
 /* ---- Bytes ------------------------------------------------------------------------------------------------------- */
 
 typedef struct stored_head {
-    uint32_t count[LISTS], unverified, unused;
+    uint32_t count[LISTS], unverified;
 } stored_head;
 
 _Static_assert(sizeof(stored_head) % 8 == 0, "lists are aligned");
@@ -266,7 +312,7 @@ bool gis_part_result_load(gis_part_result *to, const unsigned char *from, size_t
 
 uint64_t gis_part_result_form(void)
 {
-    uint64_t form = 4; /* version: raise it when the meaning of a member changes */
+    uint64_t form = 5; /* version: raise it when the meaning of a member changes */
     for (int k = 0; k < LISTS; k++) form = gis_checksum_of(form, &lists[k].size, sizeof lists[k].size);
     return form;
 }

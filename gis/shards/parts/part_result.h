@@ -4,7 +4,7 @@
 #define GIS_PART_RESULT_H
 
 #include "base/gis_error.h"
-#include "sunder_parts.h"
+#include "sunder_hiding.h"
 
 #include <stdint.h>
 
@@ -34,7 +34,8 @@ typedef struct gis_part_world {
                           * block */
     unsigned run;        /* number of the separation that found it */
     size_t row, rows;    /* its items in the result's lists: `rows` of them, from `row` on; the same for: */
-    size_t footprint, footprints, bound, bounds, conflict, conflicts, push, pushes, tree, trees;
+    size_t footprint, footprints, bound, bounds, conflict, conflicts, push, pushes, tree, trees, component, components,
+        class, classes, hidden, hiddens;
     sunder_conflict_counts before, after;
     size_t thin, clusters, clusters_optimal;
 } gis_part_world;
@@ -68,6 +69,16 @@ typedef struct gis_part_push {
     size_t layer;          /* offset of a text: for a barrier the name of its layer */
 } gis_part_push;
 
+/* A hidden feature, and the set of things that says why (gis_hidden_row): `things` numbers of the list `blocker`, from
+ * `blocker` on. */
+typedef struct gis_part_hidden {
+    size_t index;
+    sunder_hiding_cost cost;
+    size_t blocker, things;
+    size_t name, names; /* all features and barriers that it names */
+    bool proved, forced;
+} gis_part_hidden;
+
 /* A requested feature that is in no world, but differs from a feature alone: it is in a block, or is the first of a
  * block with conflicts inside. */
 typedef struct gis_part_still {
@@ -99,21 +110,27 @@ typedef struct gis_part_result {
     size_t *blocker;
     gis_part_push *push;
     gis_part_tree *tree;
+    sunder_hiding_component *component;
+    sunder_hiding_class *class; /* what the components of a world hide, class by class */
+    gis_part_hidden *hidden;
     gis_part_name *name;
     gis_part_still *still;
     gis_part_link *link;
     gis_part_neighbours *neighbour;
     char *text;
     char *line; /* the bytes of all lines of the proof */
-    size_t worlds, rows, footprints, bounds, conflicts, blockers, pushes, trees, names, stills, links, neighbours,
-        texts, lines;
+    size_t worlds, rows, footprints, bounds, conflicts, blockers, pushes, trees, components, classes, hiddens, names,
+        stills, links, neighbours, texts, lines;
     struct {
-        size_t world, row, footprint, bound, conflict, blocker, push, tree, name, still, link, neighbour, text, line;
+        size_t world, row, footprint, bound, conflict, blocker, push, tree, component, class, hidden, name, still, link,
+            neighbour, text, line;
     } room;
     bool unverified; /* the core did not verify the result of some part */
 } gis_part_result;
 
 void gis_part_result_clear(gis_part_result *result);
+/* A world without items, whose lists begin at the ends of those of *result. */
+gis_part_world gis_part_world_at(const gis_part_result *result);
 /* Empties all lists, but keeps their memory. */
 void gis_part_result_empty(gis_part_result *result);
 
@@ -136,6 +153,7 @@ bool gis_part_copy_row(gis_part_result *to, const gis_part_result *from, size_t 
 bool gis_part_copy_conflict(gis_part_result *to, const gis_part_result *from, size_t conflict, gis_error *error);
 bool gis_part_copy_push(gis_part_result *to, const gis_part_result *from, size_t push, gis_error *error);
 bool gis_part_copy_tree(gis_part_result *to, const gis_part_result *from, size_t tree, gis_error *error);
+bool gis_part_copy_hidden(gis_part_result *to, const gis_part_result *from, size_t hidden, gis_error *error);
 bool gis_part_copy_still(gis_part_result *to, const gis_part_result *from, size_t still, gis_error *error);
 bool gis_part_copy_link(gis_part_result *to, const gis_part_result *from, size_t link, gis_error *error);
 bool gis_part_copy_neighbours(gis_part_result *to, const gis_part_result *from, size_t neighbours, gis_error *error);

@@ -29,7 +29,7 @@ static bool is_kind(sunder_conflict_kind kind)
     return (unsigned)kind <= SUNDER_CONFLICT_DUPLICATE || kind == SUNDER_CONFLICT_TIGHT;
 }
 
-static bool is_status(sunder_feature_status status) { return (unsigned)status <= SUNDER_FEATURE_SKIPPED; }
+static bool is_status(sunder_feature_status status) { return (unsigned)status <= SUNDER_FEATURE_HIDDEN; }
 
 static bool are_worlds(const gis_part_result *r, uint64_t places)
 {
@@ -40,7 +40,9 @@ static bool are_worlds(const gis_part_result *r, uint64_t places)
             !range_is_within(w->footprint, w->footprints, r->footprints) ||
             !range_is_within(w->bound, w->bounds, r->bounds) ||
             !range_is_within(w->conflict, w->conflicts, r->conflicts) ||
-            !range_is_within(w->push, w->pushes, r->pushes) || !range_is_within(w->tree, w->trees, r->trees))
+            !range_is_within(w->push, w->pushes, r->pushes) || !range_is_within(w->tree, w->trees, r->trees) ||
+            !range_is_within(w->component, w->components, r->components) ||
+            !range_is_within(w->class, w->classes, r->classes) || !range_is_within(w->hidden, w->hiddens, r->hiddens))
             return false;
     }
     return true;
@@ -59,11 +61,32 @@ static bool are_rows(const gis_part_result *r, uint64_t places)
     return true;
 }
 
+/* Do the `names` names from `name` on contain that of this feature or barrier? */
+static bool is_named(const gis_part_result *r, size_t name, size_t names, size_t index)
+{
+    for (size_t k = 0; k < names; k++)
+        if (r->name[name + k].index == index) return true;
+    return false;
+}
+
 static bool conflict_names(const gis_part_result *r, const gis_part_conflict *c, size_t index)
 {
-    for (size_t k = 0; k < c->names; k++)
-        if (r->name[c->name + k].index == index) return true;
-    return false;
+    return is_named(r, c->name, c->names, index);
+}
+
+static bool are_hidden(const gis_part_result *r)
+{
+    for (size_t k = 0; k < r->hiddens; k++) {
+        const gis_part_hidden *h = &r->hidden[k];
+        if (!is_flag(&h->proved) || !is_flag(&h->forced) || !range_is_within(h->blocker, h->things, r->blockers) ||
+            !range_is_within(h->name, h->names, r->names) || !is_named(r, h->name, h->names, h->index))
+            return false;
+        for (size_t m = 0; m < h->things; m++)
+            if (!is_named(r, h->name, h->names, r->blocker[h->blocker + m])) return false;
+    }
+    for (size_t k = 0; k < r->components; k++)
+        if (!is_flag(&r->component[k].best)) return false;
+    return true;
 }
 
 /* Is the conflict sound, and does its list of names contain all features and barriers that it mentions? */
@@ -106,5 +129,6 @@ static bool are_others(const gis_part_result *r, uint64_t places)
 bool gis_part_result_is_sound(const gis_part_result *result, uint64_t places)
 {
     return (result->texts == 0 || result->text[result->texts - 1] == '\0') && are_worlds(result, places) &&
-           are_rows(result, places) && are_conflicts(result, places) && are_others(result, places);
+           are_rows(result, places) && are_conflicts(result, places) && are_hidden(result) &&
+           are_others(result, places);
 }

@@ -4,6 +4,7 @@
 
 #include "base/array.h"
 #include "layer/barriers/barrier.h"
+#include "layer/output.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -20,7 +21,8 @@ size_t gis_part_index_of(const gis_part *p, size_t thing)
     return thing < p->n ? p->item[thing].feature.index : SIZE_MAX;
 }
 
-static bool add_name(gis_part *p, gis_part_conflict *to, size_t thing, gis_error *error)
+/* Adds the name of a thing, unless it is SIZE_MAX, and counts it in *names. */
+static bool add_name(gis_part *p, size_t *names, size_t thing, gis_error *error)
 {
     gis_part_name name = {.index = gis_part_index_of(p, thing)};
     if (name.index == SIZE_MAX) return true;
@@ -30,7 +32,7 @@ static bool add_name(gis_part *p, gis_part_conflict *to, size_t thing, gis_error
     if (!gis_part_add_text(p->out, text, &name.id, error) || !GIS_PART_MORE(p->out, name, names, 1, error))
         return false;
     p->out->name[p->out->names++] = name;
-    to->names++;
+    ++*names;
     return true;
 }
 
@@ -77,10 +79,11 @@ bool gis_part_fill_conflict(gis_part *p, size_t number, bool loose, gis_error *e
     to.is.b = gis_part_index_of(p, c->b);
     to.is.need_gone = gis_part_index_of(p, c->need_gone);
     to.is.blocked_by = NULL;
-    bool done = add_name(p, &to, c->a, error) && add_name(p, &to, c->b, error) && add_name(p, &to, c->need_gone, error);
+    bool done = add_name(p, &to.names, c->a, error) && add_name(p, &to.names, c->b, error) &&
+                add_name(p, &to.names, c->need_gone, error);
     for (size_t k = 0; k < c->n_blocked_by && done; k++) {
         out->blocker[out->blockers++] = gis_part_index_of(p, c->blocked_by[k]);
-        done = add_name(p, &to, c->blocked_by[k], error);
+        done = add_name(p, &to.names, c->blocked_by[k], error);
     }
     out->conflict[out->conflicts++] = to;
     return done;
@@ -123,6 +126,43 @@ bool gis_part_fill_tree(gis_part *p, const gis_proof_place *place, gis_error *er
         !take_line(p, &to.line, error) || !GIS_PART_MORE(p->out, tree, trees, 1, error))
         return false;
     p->out->tree[p->out->trees++] = to;
+    return true;
+}
+
+bool gis_part_fill_hidden(gis_part *p, size_t k, const sunder_clause *why, gis_error *error)
+{
+    gis_part_result *out = p->out;
+    const gis_hidden_row row = gis_hidden_row_of(k, p->item[k].feature.hiding, why);
+    gis_part_hidden to = {.index = gis_part_index_of(p, k),
+                          .cost = row.cost,
+                          .blocker = out->blockers,
+                          .things = row.things,
+                          .name = out->names,
+                          .proved = row.proved,
+                          .forced = row.forced};
+    if (!GIS_PART_MORE(out, hidden, hiddens, 1, error) || !GIS_PART_MORE(out, blocker, blockers, row.things, error) ||
+        !add_name(p, &to.names, k, error))
+        return false;
+    for (size_t m = 0; m < row.things; m++) {
+        out->blocker[out->blockers++] = gis_part_index_of(p, row.thing[m]);
+        if (row.thing[m] != k && !add_name(p, &to.names, row.thing[m], error)) return false;
+    }
+    out->hidden[out->hiddens++] = to;
+    return true;
+}
+
+bool gis_part_fill_component(gis_part *p, size_t number, gis_error *error)
+{
+    gis_part_result *out = p->out;
+    size_t n;
+    sunder_hiding_component to = sunder_report_hiding_components(p->report, &n)[number];
+    const sunder_hiding_class *class = sunder_report_component_classes(p->report, &n) + to.class;
+    if (!GIS_PART_MORE(out, component, components, 1, error) || !GIS_PART_MORE(out, class, classes, to.classes, error))
+        return false;
+    for (size_t k = 0; k < to.classes; k++) out->class[out->classes++] = class[k];
+    to.feature = gis_part_index_of(p, to.feature);
+    to.class = 0; /* the classes of all components of the world are summed */
+    out->component[out->components++] = to;
     return true;
 }
 

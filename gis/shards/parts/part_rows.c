@@ -41,13 +41,8 @@ static bool add_undecided(gis_part *p, size_t k, gis_part_world *to, gis_error *
 static bool add_undecided_world(gis_part *p, gis_error *error)
 {
     gis_part_result *out = p->out;
-    gis_part_world to = {.run = p->run,
-                         .row = out->rows,
-                         .footprint = out->footprints,
-                         .bound = out->bounds,
-                         .conflict = out->conflicts,
-                         .push = out->pushes,
-                         .tree = out->trees};
+    gis_part_world to = gis_part_world_at(out);
+    to.run = p->run;
     for (size_t k = 0; k < p->n; k++)
         if (is_undecided(p, k) && !add_undecided(p, k, &to, error)) return false;
     if (to.rows == 0) return true;

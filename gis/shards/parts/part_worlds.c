@@ -3,6 +3,7 @@
 
 #include "base/array.h"
 #include "geometry/gis_box.h"
+#include "layer/output.h"
 
 #include <stdint.h>
 #include <stdlib.h>
@@ -69,22 +70,27 @@ static int by_world(const void *a, const void *b)
 
 /* The items of all worlds, sorted by world, and the place reached in each list. */
 typedef struct belongings {
-    belonging *feature, *conflict, *push, *tree;
-    gis_proof_place *place; /* [trees]; NULL: no trees are kept */
-    size_t features, conflicts, pushes, trees, f, c, p, t;
+    belonging *feature, *conflict, *push, *tree, *component;
+    const sunder_clause **reason; /* [features] why each is hidden; NULL for others */
+    gis_proof_place *place;       /* [trees]; NULL: no trees are kept */
+    size_t features, conflicts, pushes, trees, components, f, c, p, t, h;
 } belongings;
 
 static bool list_belongings(const gis_part *p, belongings *all, gis_error *error)
 {
     const sunder_conflict *conflict = sunder_report_conflicts(p->report, &all->conflicts);
     const sunder_push *push = sunder_report_pushes(p->report, &all->pushes);
+    const sunder_hiding_component *component = sunder_report_hiding_components(p->report, &all->components);
     if (p->lines.report && !gis_proof_order(&p->lines, &all->place, &all->trees, error)) return false;
     all->features = p->n;
     all->tree = malloc((all->trees + 1) * sizeof *all->tree);
     all->feature = malloc((p->n + 1) * sizeof *all->feature);
     all->conflict = malloc((all->conflicts + 1) * sizeof *all->conflict);
     all->push = malloc((all->pushes + 1) * sizeof *all->push);
-    if (!all->feature || !all->conflict || !all->push || !all->tree) return gis_no_memory(error);
+    all->component = malloc((all->components + 1) * sizeof *all->component);
+    all->reason = gis_hidden_reasons(p->report, p->n);
+    if (!all->feature || !all->conflict || !all->push || !all->tree || !all->component || !all->reason)
+        return gis_no_memory(error);
     for (size_t k = 0; k < p->n; k++) all->feature[k] = (belonging){sunder_report_world(p->report, k), k};
     for (size_t k = 0; k < all->conflicts; k++)
         all->conflict[k] = (belonging){sunder_report_world_of_pair(p->report, conflict[k].a, conflict[k].b), k};
@@ -92,6 +98,9 @@ static bool list_belongings(const gis_part *p, belongings *all, gis_error *error
         all->push[k] = (belonging){sunder_report_world_of_pair(p->report, push[k].a, push[k].b), k};
     for (size_t k = 0; k < all->trees; k++)
         all->tree[k] = (belonging){sunder_report_world(p->report, all->place[k].first), k};
+    for (size_t k = 0; k < all->components; k++)
+        all->component[k] = (belonging){sunder_report_world(p->report, component[k].feature), k};
+    qsort(all->component, all->components, sizeof *all->component, by_world);
     qsort(all->tree, all->trees, sizeof *all->tree, by_world);
     qsort(all->feature, all->features, sizeof *all->feature, by_world);
     qsort(all->conflict, all->conflicts, sizeof *all->conflict, by_world);
@@ -111,13 +120,18 @@ static bool add_members(gis_part *p, belongings *all, size_t number, gis_error *
     size_t n;
     const sunder_push *push = sunder_report_pushes(p->report, &n);
     for (size_t k = all->f; k < all->features && all->feature[k].world == number; k++)
-        if (!gis_part_fill_row(p, all->feature[k].at, error)) return false;
+        if (!gis_part_fill_row(p, all->feature[k].at, error) ||
+            (sunder_report_status(p->report, all->feature[k].at) == SUNDER_FEATURE_HIDDEN &&
+             !gis_part_fill_hidden(p, all->feature[k].at, all->reason[all->feature[k].at], error)))
+            return false;
     for (size_t k = all->c; k < all->conflicts && all->conflict[k].world == number; k++)
         if (!gis_part_fill_conflict(p, all->conflict[k].at, false, error)) return false;
     for (size_t k = all->p; k < all->pushes && all->push[k].world == number; k++)
         if (!gis_part_fill_push(p, &push[all->push[k].at], error)) return false;
     for (size_t k = all->t; k < all->trees && all->tree[k].world == number; k++)
         if (!gis_part_fill_tree(p, &all->place[all->tree[k].at], error)) return false;
+    for (size_t k = all->h; k < all->components && all->component[k].world == number; k++)
+        if (!gis_part_fill_component(p, all->component[k].at, error)) return false;
     return true;
 }
 
@@ -127,6 +141,7 @@ static void pass_by(belongings *all, size_t number)
     while (all->c < all->conflicts && all->conflict[all->c].world == number) all->c++;
     while (all->p < all->pushes && all->push[all->p].world == number) all->p++;
     while (all->t < all->trees && all->tree[all->t].world == number) all->t++;
+    while (all->h < all->components && all->component[all->h].world == number) all->h++;
 }
 
 static bool add_world(gis_part *p, size_t number, belongings *all, gis_error *error)
@@ -135,21 +150,16 @@ static bool add_world(gis_part *p, size_t number, belongings *all, gis_error *er
     gis_part_result *out = p->out;
     const sunder_world *w = &sunder_report_worlds(p->report, &n)[number];
     const sunder_world_bound *bound = sunder_report_world_bounds(p->report, &n);
-    gis_part_world to = {.first = gis_part_index_of(p, w->first),
-                         .run = p->run,
-                         .row = out->rows,
-                         .footprint = out->footprints,
-                         .footprints = w->footprints,
-                         .bound = out->bounds,
-                         .bounds = w->bounds,
-                         .conflict = out->conflicts,
-                         .push = out->pushes,
-                         .tree = out->trees,
-                         .before = w->before,
-                         .after = w->after,
-                         .thin = w->thin,
-                         .clusters = w->clusters,
-                         .clusters_optimal = w->clusters_optimal};
+    gis_part_world to = gis_part_world_at(out);
+    to.first = gis_part_index_of(p, w->first);
+    to.run = p->run;
+    to.footprints = w->footprints;
+    to.bounds = w->bounds;
+    to.before = w->before;
+    to.after = w->after;
+    to.thin = w->thin;
+    to.clusters = w->clusters;
+    to.clusters_optimal = w->clusters_optimal;
     if (!GIS_PART_MORE(out, bound, bounds, w->bounds, error) || !add_footprints(p, w, &to, error)) return false;
     for (size_t k = 0; k < w->bounds; k++) out->bound[out->bounds++] = bound[w->bound + k];
     if (!add_members(p, all, number, error)) return false;
@@ -159,6 +169,9 @@ static bool add_world(gis_part *p, size_t number, belongings *all, gis_error *er
     to.conflicts = out->conflicts - to.conflict;
     to.pushes = out->pushes - to.push;
     to.trees = out->trees - to.tree;
+    to.components = out->components - to.component;
+    to.classes = out->classes - to.class;
+    to.hiddens = out->hiddens - to.hidden;
     if (!GIS_PART_MORE(out, world, worlds, 1, error)) return false;
     out->world[out->worlds++] = to;
     return true;
@@ -175,17 +188,12 @@ static bool add_loose(gis_part *p, const belongings *all, gis_error *error)
         const sunder_conflict *c = &conflict[all->conflict[k].at];
         if (!p->item[c->a].wanted) continue;
         if (!GIS_PART_MORE(out, world, worlds, 1, error)) return false;
-        out->world[out->worlds++] = (gis_part_world){.first = gis_part_index_of(p, c->a),
-                                                     .run = p->run,
-                                                     .complete = true,
-                                                     .loose = true,
-                                                     .row = out->rows,
-                                                     .footprint = out->footprints,
-                                                     .bound = out->bounds,
-                                                     .push = out->pushes,
-                                                     .tree = out->trees,
-                                                     .conflict = out->conflicts,
-                                                     .conflicts = 1};
+        gis_part_world to = gis_part_world_at(out);
+        to.first = gis_part_index_of(p, c->a);
+        to.run = p->run;
+        to.complete = to.loose = true;
+        to.conflicts = 1;
+        out->world[out->worlds++] = to;
         if (!gis_part_fill_conflict(p, all->conflict[k].at, true, error)) return false;
     }
     return true;
@@ -206,6 +214,8 @@ bool gis_part_fill_worlds(gis_part *p, gis_error *error)
     free(all.conflict);
     free(all.push);
     free(all.tree);
+    free(all.component);
+    free(all.reason);
     free(all.place);
     return done;
 }

@@ -110,6 +110,10 @@ static bool add_feature(spooling *s, size_t i, char **copy, gis_error *error)
                                  .start = {NAN, NAN},
                                  .area = by_area(s) ? sunder_shape_area(input->shape[i]) : 0,
                                  .row = input->row ? input->row[i] + 1 : 0};
+    if (input->request->rules.hide && !aside) {
+        if (!gis_layer_check_class(input, i, error)) return false;
+        feature.hiding = gis_layer_hiding_cost(input, i);
+    }
     feature.demands.shape = input->shape[i];
     s->facts->aside += aside;
     return to && (!input->points || gis_arrow_start(input, i, feature.start, error)) &&

@@ -165,12 +165,17 @@ static bool visit_arrows(const gis_result *r, bool has_null, gis_arrow_visit *vi
     return !any;
 }
 
-/* The name of a feature or barrier in the current conflict. */
-static const gis_part_name *name_of(const gis_shard_run *p, size_t feature)
+/* The things that an item of a sorted list names. */
+typedef struct named {
+    const gis_shard_run *parts;
+    const gis_part_result *one; /* the item */
+} named;
+
+/* The name of a feature or barrier in the current item. */
+static const gis_part_name *name_of(const named *n, size_t feature)
 {
-    const gis_part_result *one = &p->joined.conflicts.one;
-    for (size_t k = 0; k < one->names; k++)
-        if (one->name[k].index == feature) return &one->name[k];
+    for (size_t k = 0; k < n->one->names; k++)
+        if (n->one->name[k].index == feature) return &n->one->name[k];
     return NULL;
 }
 
@@ -182,27 +187,28 @@ static GIntBig part_fid(const void *of, size_t feature)
 
 static bool part_id(const void *of, size_t feature, char **copy, gis_value *value, gis_error *error)
 {
-    const gis_shard_run *p = of;
-    const gis_part_name *name = name_of(p, feature);
+    const named *n = of;
+    const gis_part_name *name = name_of(n, feature);
     (void)copy;
     (void)error;
-    *value = id_value(p, name ? gis_part_text(&p->joined.conflicts.one, name->id) : NULL);
+    *value = id_value(n->parts, name ? gis_part_text(n->one, name->id) : NULL);
     return true;
 }
 
 static GIntBig part_barrier(const void *of, size_t thing, const char **layer)
 {
-    const gis_shard_run *p = of;
-    const gis_part_name *name = name_of(p, thing);
-    *layer = name ? gis_part_text(&p->joined.conflicts.one, name->id) : "";
+    const named *n = of;
+    const gis_part_name *name = name_of(n, thing);
+    *layer = name ? gis_part_text(n->one, name->id) : "";
     return name ? name->fid : OGRNullFID;
 }
 
 static bool visit_conflicts(const gis_result *r, gis_conflict_visit *visit, void *user, gis_error *error)
 {
     gis_shard_run *p = r->of;
-    const gis_things things = {p, p->facts.source.features, part_fid, part_id, part_barrier};
     gis_sorted_results *conflicts = &p->joined.conflicts;
+    const named names = {p, &conflicts->one};
+    const gis_things things = {&names, p->facts.source.features, part_fid, part_id, part_barrier};
     bool any = true;
     gis_sorted_results_rewind(conflicts);
     while (gis_sorted_results_next(conflicts, &any, error) && any) {
@@ -211,6 +217,46 @@ static bool visit_conflicts(const gis_result *r, gis_conflict_visit *visit, void
         if (!visit(user, &c->is, &things, error)) return false;
     }
     return !any;
+}
+
+/* Visits the hidden features of the current batch of the source. *any: the sorted list has a current item. */
+static bool visit_hidden_batch(const gis_result *r, bool *any, gis_hidden_visit *visit, void *user, gis_error *error)
+{
+    gis_shard_run *p = r->of;
+    gis_sorted_results *hidden = &p->joined.hidden;
+    const named names = {p, &hidden->one};
+    const gis_things things = {&names, p->facts.source.features, part_fid, part_id, part_barrier};
+    const gis_source *source = r->input->source;
+    const size_t first = gis_source_first(source), end = first + gis_source_count(source);
+    while (*any && hidden->head.first < end) {
+        const gis_part_hidden *h = hidden->one.hidden;
+        const gis_hidden_row row = {h->index, h->cost, hidden->one.blocker, h->things, h->proved, h->forced};
+        if (!visit(user, &row, &things, gis_source_geometry(source, h->index - first), error) ||
+            !gis_sorted_results_next(hidden, any, error))
+            return false;
+    }
+    return true;
+}
+
+static bool visit_hidden(const gis_result *r, gis_hidden_visit *visit, void *user, gis_error *error)
+{
+    gis_shard_run *p = r->of;
+    gis_source *source = r->input->source;
+    bool any = true, more = true;
+    gis_sorted_results_rewind(&p->joined.hidden);
+    if (!gis_sorted_results_next(&p->joined.hidden, &any, error)) return false;
+    if (any && !p->whole && !gis_source_again(source, &more, error)) return false;
+    while (any && more) {
+        if (!visit_hidden_batch(r, &any, visit, user, error)) return false;
+        more = !p->whole;
+        if (any && more && !gis_source_next(source, &more, error)) return false;
+    }
+    return true;
+}
+
+static void sum_hiding(const gis_result *r, gis_hiding *hiding)
+{
+    *hiding = ((const gis_shard_run *)r->of)->joined.hiding;
 }
 
 /* The FID of one of the two features or barriers of the current push. */
@@ -307,7 +353,8 @@ static OGRFieldType id_type(const gis_result *r) { return ((const gis_shard_run 
 
 gis_result gis_shard_run_result(gis_shard_run *parts, const gis_layer_input *input)
 {
-    static const gis_result_kind kind = {visit_features, visit_arrows, visit_conflicts,    visit_pushes, visit_rows,
-                                         write_symbols,  NULL, write_proof,  gis_shard_run_view, longest_fid,  id_type};
+    static const gis_result_kind kind = {visit_features, visit_arrows,       visit_conflicts, visit_pushes,
+                                         visit_rows,     write_symbols,      visit_hidden,    sum_hiding,
+                                         write_proof,    gis_shard_run_view, longest_fid,     id_type};
     return (gis_result){&kind, input, parts};
 }

@@ -17,6 +17,8 @@ typedef struct spool_view {
     size_t conflicts, conflict_room;
     size_t *blocker; /* the blockers of all conflicts, concatenated */
     size_t blockers, blocker_room;
+    size_t *thing; /* the things of all hidden features, concatenated */
+    size_t things, thing_room;
     uint64_t *barrier_place; /* [barriers] */
     sunder_shape *lent, *lent_barrier;
     sunder_obstacle lines; /* of the barrier that was lent last */
@@ -161,6 +163,35 @@ static bool keep_conflict(spool_view *s, const gis_part_result *one, gis_error *
     return true;
 }
 
+/* Adds a hidden feature to the list; where its things are is known when all are listed. */
+static bool keep_hidden(spool_view *s, const gis_part_result *one, gis_hidden_row **list, size_t *room, size_t *n,
+                        gis_error *error)
+{
+    const gis_part_hidden *h = one->hidden;
+    if (!gis_array_reserve(list, room, *n + 1, sizeof **list) ||
+        !gis_array_reserve(&s->thing, &s->thing_room, s->things + h->things, sizeof *s->thing))
+        return gis_no_memory(error);
+    (*list)[(*n)++] = (gis_hidden_row){h->index, h->cost, NULL, h->things, h->proved, h->forced};
+    if (h->things) memcpy(s->thing + s->things, one->blocker, h->things * sizeof *s->thing);
+    s->things += h->things;
+    return true;
+}
+
+static bool list_hidden(void *of, gis_hidden_row **hidden, size_t *n, gis_error *error)
+{
+    spool_view *s = of;
+    gis_sorted_results *sorted = &s->parts->joined.hidden;
+    size_t room = 0;
+    bool any = true;
+    *hidden = NULL;
+    *n = s->things = 0;
+    gis_sorted_results_rewind(sorted);
+    while (gis_sorted_results_next(sorted, &any, error) && any)
+        if (!gis_go_on(error) || !keep_hidden(s, &sorted->one, hidden, &room, n, error)) return false;
+    for (size_t k = 0, at = 0; k < *n; at += (*hidden)[k++].things) (*hidden)[k].thing = s->thing + at;
+    return !any;
+}
+
 static bool list_conflicts(void *of, const sunder_conflict **conflict, size_t *n, gis_error *error)
 {
     spool_view *s = of;
@@ -277,6 +308,7 @@ static void close_view(void *of)
     sunder_shape_free(s->lent_barrier);
     gis_text_clear(&s->text);
     free(s->conflict);
+    free(s->thing);
     free(s->blocker);
     free(s->barrier_place);
     free(s);
@@ -293,6 +325,7 @@ bool gis_shard_run_view(const gis_result *result, gis_result_view *out, gis_erro
                              fill_features,
                              fill_barriers,
                              list_conflicts,
+                             list_hidden,
                              list_rows,
                              lend_feature_shape,
                              NULL, /* shapes do not change */

@@ -101,6 +101,8 @@ static void choose_options(gis_shard_run *p)
                                    .tolerance = p->facts.tolerance,
                                    .barrier_reach = p->facts.barrier_reach};
     p->layout.how = gis_layer_core_options(&input);
+    p->layout.hides = p->request->rules.hide;
+    p->layout.crossed = p->request->rules.crossed;
 }
 
 /* If rows of houses are wanted, the distance up to which features around a part are read is larger by this number of

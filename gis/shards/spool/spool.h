@@ -14,22 +14,23 @@
 #define GIS_SPOOL_H
 
 #include "base/gis_error.h"
-#include "sunder.h"
+#include "sunder_hiding.h"
 
 #include <stdint.h>
 
 typedef struct gis_spool_feature {
-    size_t index;           /* place in the input, from 0 */
-    int64_t fid;            /* OGRNullFID: it has none */
-    sunder_feature demands; /* its shape is borrowed when a feature is added, and owned by the visitor when it is
+    size_t index;              /* place in the input, from 0 */
+    int64_t fid;               /* OGRNullFID: it has none */
+    sunder_feature demands;    /* its shape is borrowed when a feature is added, and owned by the visitor when it is
                              * read */
-    double start[2];        /* of a point feature: the start of its arrow; otherwise NAN */
-    double area;            /* of the shape, if weights depend on it; of a barrier, the full gap; else 0 */
-    const char *id;         /* value of --id-field as text; NULL: null */
-    sunder_obstacle lines;  /* of a barrier (shards/spool/barrier_spool.h), borrowed; its shape member is not used */
-    int64_t row;            /* number of its row of --rows FIELD, from 1 on; 0: none */
-    double reach;           /* its box is enlarged by this on all sides; 0 except for a barrier */
-    uint64_t place;         /* offset of its record in the spool that it was read from */
+    double start[2];           /* of a point feature: the start of its arrow; otherwise NAN */
+    double area;               /* of the shape, if weights depend on it; of a barrier, the full gap; else 0 */
+    const char *id;            /* value of --id-field as text; NULL: null */
+    sunder_obstacle lines;     /* of a barrier (shards/spool/barrier_spool.h), borrowed; its shape member is not used */
+    int64_t row;               /* number of its row of --rows FIELD, from 1 on; 0: none */
+    sunder_hiding_cost hiding; /* what it costs to hide it; weight 0: nothing is hidden */
+    double reach;              /* its box is enlarged by this on all sides; 0 except for a barrier */
+    uint64_t place;            /* offset of its record in the spool that it was read from */
 } gis_spool_feature;
 
 typedef struct gis_spool_cell {

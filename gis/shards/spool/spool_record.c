@@ -26,7 +26,8 @@ enum {
     LINES = 1 << 7,
     ID = 1 << 8,
     ROW = 1 << 9,
-    ALL = (1 << 10) - 1
+    HIDING = 1 << 10,
+    ALL = (1 << 11) - 1
 };
 
 /* Number of lines and of their points, for a record with LINES. */
@@ -43,7 +44,8 @@ static const size_t size_of[] = {0,
                                  4 * sizeof(double),
                                  sizeof(counts),
                                  sizeof(uint64_t),
-                                 sizeof(int64_t)};
+                                 sizeof(int64_t),
+                                 2 * sizeof(int64_t)};
 
 /* The offset of the data of the member `flag`; for ALL + 1, the end of all optional members. */
 static size_t place_of(const gis_spool_head *head, uint32_t flag)
@@ -155,7 +157,8 @@ static uint32_t flags_of(const gis_spool_feature *feature, const content *c, boo
                repaired = demands->shape && sunder_shape_repaired(demands->shape);
     return (demands->fixed ? FIXED : 0) | (repaired ? REPAIRED : 0) | (demands->block != -1 ? BLOCK : 0) |
            (feature->area != 0 ? AREA : 0) | (started ? START : 0) | (feature->reach != 0 ? REACH : 0) |
-           (other_box ? BOX : 0) | (c->of_lines.lines ? LINES : 0) | (feature->id ? ID : 0) | (feature->row ? ROW : 0);
+           (other_box ? BOX : 0) | (c->of_lines.lines ? LINES : 0) | (feature->id ? ID : 0) | (feature->row ? ROW : 0) |
+           (feature->hiding.weight ? HIDING : 0);
 }
 
 bool gis_spool_record_make(gis_spool_room *room, const gis_spool_feature *feature, gis_error *error)
@@ -193,6 +196,8 @@ bool gis_spool_record_make(gis_spool_room *room, const gis_spool_feature *featur
     put_member(room->at, &head, LINES, &c.of_lines, sizeof c.of_lines);
     put_member(room->at, &head, ID, &c.id_bytes, sizeof c.id_bytes);
     put_member(room->at, &head, ROW, &feature->row, sizeof feature->row);
+    put_member(room->at, &head, HIDING, (int64_t[2]){feature->hiding.hierarchy, feature->hiding.weight},
+               2 * sizeof(int64_t));
     if (vertices) memcpy(room->at + c.xy, xy, 2 * vertices * sizeof *xy);
     if (points) memcpy(room->at + c.line_xy, feature->lines.xy, 2 * points * sizeof *xy);
     if (has_ends(&head)) put_ends(put_ends(room->at + c.ring_ends, ring_end, rings), poly_end, polygons);
@@ -248,6 +253,9 @@ bool gis_spool_record_feature(unsigned char *record, size_t left, gis_spool_feat
     get_member(record, &head, START, feature->start, sizeof feature->start);
     get_member(record, &head, REACH, &feature->reach, sizeof feature->reach);
     get_member(record, &head, ROW, &feature->row, sizeof feature->row);
+    int64_t hiding[2] = {0};
+    get_member(record, &head, HIDING, hiding, sizeof hiding);
+    feature->hiding = (sunder_hiding_cost){(uint32_t)hiding[0], hiding[1]};
     return true;
 }
 
