@@ -40,15 +40,32 @@ static double distance_between(const sunder_i_wall_contact *a, const sunder_i_wa
     return hypot(a->xy[0] - b->xy[0], a->xy[1] - b->xy[1]);
 }
 
-/* Moves one end of the chord of an arc along the arm, to where the chord is shortest. */
+/* Are all vertices of the walls that begin at an arc beyond a line, or on it? */
+static bool is_beyond(const sunder_i_arms *a, size_t arc, const double from[2], const double to[2])
+{
+    const sunder_i_wall_contact *begin = &a->contact[a->arc[arc].leaves];
+    const sunder_i_wall_contact *end = &a->contact[a->arc[a->arc[arc].next].returns];
+    const sunder_point p = {from[0], from[1]}, q = {to[0], to[1]};
+    for (uint32_t v = sunder_i_vertex_after(a, begin, end); v != SUNDER_I_NO_VERTEX;
+         v = sunder_i_next_vertex(a, end, v)) {
+        const sunder_point at = {a->shape->xy[2 * (size_t)v], a->shape->xy[2 * (size_t)v + 1]};
+        if (sunder_orient(&p, &q, &at) > 0) return false;
+    }
+    return true;
+}
+
+/* Moves one end of the chord of an arc along the arm, to where the chord is shortest, if walls do not bend inwards
+ * across it. */
 static void square_off(sunder_i_arms *a, size_t arc)
 {
     size_t last = arc; /* the arc before it in its cycle */
     while (a->arc[last].next != arc) last = a->arc[last].next;
     sunder_i_wall_contact *from = &a->contact[a->arc[arc].leaves], *to = &a->contact[a->arc[arc].returns];
     sunder_i_wall_contact first, second;
-    const bool one = find_foot(a, from, to->xy, &a->contact[a->arc[a->arc[arc].next].returns], &first),
-               other = find_foot(a, to, from->xy, &a->contact[a->arc[last].leaves], &second);
+    const bool one = find_foot(a, from, to->xy, &a->contact[a->arc[a->arc[arc].next].returns], &first) &&
+                     is_beyond(a, arc, first.xy, to->xy) && is_beyond(a, last, first.xy, to->xy);
+    const bool other = find_foot(a, to, from->xy, &a->contact[a->arc[last].leaves], &second) &&
+                       is_beyond(a, arc, from->xy, second.xy) && is_beyond(a, last, from->xy, second.xy);
     const double now = distance_between(from, to), by_first = one ? distance_between(&first, to) : now,
                  by_second = other ? distance_between(from, &second) : now;
     if (by_first < now && by_first <= by_second) *from = first;

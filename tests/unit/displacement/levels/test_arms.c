@@ -1,5 +1,6 @@
 /* Arms that a cut leaves too thin: named cases with areas known by hand. */
 #include "failing.h"
+#include "random.h"
 #include "simple_polygon.h"
 #include "sunder_hiding.h"
 
@@ -98,6 +99,56 @@ static void check_thin_before(void **state)
     }
 }
 
+static double distance_to_edges(const double *xy, size_t n, double x, double y)
+{
+    double least = INFINITY;
+    for (size_t k = 0, before = n - 1; k < n; before = k++) {
+        const double *p = xy + 2 * before, *q = xy + 2 * k, u = q[0] - p[0], v = q[1] - p[1];
+        const double t = fmax(0, fmin(1, (u * (x - p[0]) + v * (y - p[1])) / (u * u + v * v)));
+        least = fmin(least, hypot(x - p[0] - t * u, y - p[1] - t * v));
+    }
+    return least;
+}
+
+/* Fails if what is left of a house has not its distance from the outline, also along the cuts. */
+static void demand_distance(const double *xy, size_t corners, size_t number)
+{
+    enum { STEPS = 16 };
+    sunder_shape *shape = simple_polygon(xy, corners), *left;
+    assert_int_equal(move_in(shape, &left), SUNDER_OK);
+    size_t n = 0;
+    const double *ring = left ? sunder_shape_ring(left, 0, 0, &n) : NULL;
+    for (size_t k = 0, before = n ? n - 1 : 0; k < n; before = k++)
+        for (int step = 0; step < STEPS; step++) {
+            const double t = (double)step / STEPS, *p = ring + 2 * before, *q = ring + 2 * k;
+            const double x = p[0] + t * (q[0] - p[0]), y = p[1] + t * (q[1] - p[1]);
+            const double distance = distance_to_edges(xy, corners, x, y);
+            if (distance < 0.5 - 1e-9) fail_msg("house %zu: %.17g from the outline", number, distance);
+        }
+    sunder_shape_free(left);
+    sunder_shape_free(shape);
+}
+
+/* A wall that bends away beyond the last disc: a cut at right angles to the other wall must not cross it. And stars. */
+static void check_distance_kept(void **state)
+{
+    (void)state;
+    enum { CORNERS = 9 };
+    static const double bent[] = {0.2,  8.62, 1.58, 3.45, 2.35,  0.59, 3.48, 0.64, 3.05, 4.03,
+                                  6.66, 4.9,  8.22, 1.43, 11.26, 2.68, 8.61, 6.87, 6.74, 10.6};
+    demand_distance(bent, 10, 0);
+    for (size_t i = 0; i < test_count(400); i++) {
+        rng r = rng_start(test_seed(), i);
+        double xy[2 * CORNERS];
+        for (int k = 0; k < CORNERS; k++) {
+            const double angle = 2 * acos(-1) * (k + 0.7 * rng_unit(&r)) / CORNERS, far = 4 + 12 * rng_unit(&r);
+            xy[2 * k] = far * cos(angle);
+            xy[2 * k + 1] = far * sin(angle);
+        }
+        demand_distance(xy, CORNERS, i + 1);
+    }
+}
+
 static bool attempt(void *context)
 {
     sunder_shape *left;
@@ -121,6 +172,7 @@ static void check_without_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(check_outlines), cmocka_unit_test(check_yards),
-                                       cmocka_unit_test(check_thin_before), cmocka_unit_test(check_without_memory)};
+                                       cmocka_unit_test(check_thin_before), cmocka_unit_test(check_distance_kept),
+                                       cmocka_unit_test(check_without_memory)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
