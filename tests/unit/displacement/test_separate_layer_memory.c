@@ -20,8 +20,8 @@ enum { HOUSES = 6 };
 typedef struct street {
     sunder_shape *shape[HOUSES];
     bool check, moves;
-    double limit; /* of all features: 1.1 is enough for each pair, but not for all together */
-    bool barriers;
+    double limit;             /* of all features: 1.1 is enough for each pair, but not for all together */
+    bool barriers, preferred; /* preferred: features prefer other places */
     sunder_layer_options options;
 } street;
 
@@ -50,6 +50,7 @@ static sunder_status set_barriers(const street *s, sunder_layer *layer, sunder_e
 
 static bool attempt(void *context)
 {
+    static const double preferred[2 * HOUSES] = {1, 0.5, 1, 0.5, -3, 0, 0, 0, 0, 0, 5, 0};
     street *s = context;
     sunder_feature feature[HOUSES];
     sunder_layer *layer = NULL;
@@ -62,6 +63,7 @@ static bool attempt(void *context)
             .shape = s->shape[k], .weight = 1, .max_shift = k == 4 ? 0.5 : s->limit, .block = -1, .fixed = k == 3};
     if (!status) status = sunder_layer_new(feature, HOUSES, &layer, &err);
     if (!status) status = set_barriers(s, layer, &err);
+    if (!status && s->preferred) status = sunder_layer_set_preferred(layer, preferred, &err);
     if (!status && s->moves)
         status = sunder_layer_check_moves(layer, layer, &s->options, &report, &err);
     else if (!status)
@@ -167,6 +169,20 @@ static void check_check(void **state) { run(true, 1, INFINITY); }
 static void check_separate(void **state) { run(false, 0, INFINITY); }
 static void check_separate_with_gap(void **state) { run(false, 1, INFINITY); }
 static void check_separate_without_room(void **state) { run(false, 0, 1.1); }
+/* Two in a block that prefer the same, one that prefers to overlap them more, and one far away. */
+static void check_separate_from_preferred(void **state)
+{
+    street s = {.limit = INFINITY, .preferred = true};
+    sunder_layer_options_init(&s.options);
+    s.options.gap = 1;
+    s.options.rows = SUNDER_ROWS_FOUND;
+    s.options.keep_pushes = true;
+    failing_begin();
+    const bool sound = failing_loop(attempt, &s, true);
+    failing_end();
+    assert_true(sound);
+}
+
 static void check_beside_barriers(void **state) { run_beside(true, 1, INFINITY, true); }
 
 /* No feature moved; but the side anchors of features that the road cuts are computed. */
@@ -242,6 +258,7 @@ int main(void)
         cmocka_unit_test(check_separate),
         cmocka_unit_test(check_separate_with_gap),
         cmocka_unit_test(check_separate_without_room),
+        cmocka_unit_test(check_separate_from_preferred),
         cmocka_unit_test(check_beside_barriers),
         cmocka_unit_test(check_separate_beside_barriers),
         cmocka_unit_test(check_separate_beside_barriers_without_room),
