@@ -158,7 +158,7 @@ static bool report_clauses(sunder_i_hiding *h, sunder_report *report)
 {
     const sunder_i_clauses *c = &h->clauses;
     size_t *number = sunder_i_alloc(2 * c->items, sizeof *number);
-    report->clause = sunder_i_alloc(c->n, sizeof *report->clause);
+    report->clause = sunder_i_calloc(c->n, sizeof *report->clause); /* none has a proof yet, if memory is out */
     report->clause_level = sunder_i_alloc(c->items, sizeof *report->clause_level);
     report->clause_number = number;
     if (!number || !report->clause || !report->clause_level) return false;

@@ -3,7 +3,7 @@
 #include "failing.h"
 
 #include "displacement/layer/sides.h"
-#include "sunder.h"
+#include "sunder_hiding.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -22,6 +22,7 @@ typedef struct street {
     bool check, moves;
     double limit;             /* of all features: 1.1 is enough for each pair, but not for all together */
     bool barriers, preferred; /* preferred: features prefer other places */
+    bool hides;               /* all features may be hidden */
     sunder_layer_options options;
 } street;
 
@@ -48,6 +49,13 @@ static sunder_status set_barriers(const street *s, sunder_layer *layer, sunder_e
     return s->barriers ? sunder_layer_set_barriers(layer, barrier, 2, err) : SUNDER_OK;
 }
 
+static sunder_status set_hiding(const street *s, sunder_layer *layer, sunder_error *err)
+{
+    sunder_hiding_cost cost[HOUSES];
+    for (size_t k = 0; k < HOUSES; k++) cost[k] = (sunder_hiding_cost){1, 1};
+    return s->hides ? sunder_layer_set_hiding(layer, cost, err) : SUNDER_OK;
+}
+
 static bool attempt(void *context)
 {
     static const double preferred[2 * HOUSES] = {1, 0.5, 1, 0.5, -3, 0, 0, 0, 0, 0, 5, 0};
@@ -64,6 +72,7 @@ static bool attempt(void *context)
     if (!status) status = sunder_layer_new(feature, HOUSES, &layer, &err);
     if (!status) status = set_barriers(s, layer, &err);
     if (!status && s->preferred) status = sunder_layer_set_preferred(layer, preferred, &err);
+    if (!status) status = set_hiding(s, layer, &err);
     if (!status && s->moves)
         status = sunder_layer_check_moves(layer, layer, &s->options, &report, &err);
     else if (!status)
@@ -74,10 +83,13 @@ static bool attempt(void *context)
         assert_null(report);
     } else {
         sunder_layer_summary summary;
+        sunder_hiding_summary hiding;
         sunder_report_summary(report, &summary);
+        sunder_report_hiding(report, &hiding);
+        assert_true((hiding.hidden > 0) == s->hides);
         assert_true(s->moves || summary.before.overlap > 0);
         assert_true(s->check || summary.moved > 0 || s->limit < INFINITY);
-        assert_true(s->limit == INFINITY || summary.blocked > 0);
+        assert_true(s->limit == INFINITY || s->hides || summary.blocked > 0);
     }
     sunder_report_free(report);
     sunder_layer_free(layer);
@@ -183,6 +195,20 @@ static void check_separate_from_preferred(void **state)
     assert_true(sound);
 }
 
+/* With what is reported of parts of the layer. */
+static void check_hide(void **state)
+{
+    street s = {.limit = 1.1, .hides = true};
+    sunder_layer_options_init(&s.options);
+    s.options.gap = 1;
+    s.options.effort = 0;
+    s.options.keep_worlds = true;
+    failing_begin();
+    const bool sound = failing_loop(attempt, &s, true);
+    failing_end();
+    assert_true(sound);
+}
+
 static void check_beside_barriers(void **state) { run_beside(true, 1, INFINITY, true); }
 
 /* No feature moved; but the side anchors of features that the road cuts are computed. */
@@ -259,6 +285,7 @@ int main(void)
         cmocka_unit_test(check_separate_with_gap),
         cmocka_unit_test(check_separate_without_room),
         cmocka_unit_test(check_separate_from_preferred),
+        cmocka_unit_test(check_hide),
         cmocka_unit_test(check_beside_barriers),
         cmocka_unit_test(check_separate_beside_barriers),
         cmocka_unit_test(check_separate_beside_barriers_without_room),
