@@ -11,6 +11,7 @@ enum { SCREEN_WIDTH = 118, HELP_COLUMN = 37 };
 
 static const char *const group_titles[GIS_N_GROUPS] = {
     [GIS_GROUP_OWN] = "Options [default]:",
+    [GIS_GROUP_PLACES] = "Preferred places:",
     [GIS_GROUP_ROOM] = "Features without room:",
     [GIS_GROUP_INPUT] = "Which features, as in ogr2ogr:",
     [GIS_GROUP_OUTPUT] = "Output, as in ogr2ogr:",

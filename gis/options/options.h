@@ -84,6 +84,7 @@ typedef enum gis_option_type {
 typedef enum gis_option_group {
     GIS_GROUP_OWN,
     GIS_GROUP_IDENTITY, /* listed in the section of GIS_GROUP_OWN */
+    GIS_GROUP_PLACES,   /* which places features prefer */
     GIS_GROUP_ROOM,     /* what happens to features that cannot be given room */
     GIS_GROUP_INPUT,
     GIS_GROUP_OUTPUT,

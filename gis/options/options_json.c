@@ -33,9 +33,9 @@ static const char *const kinds[] = {
 };
 
 static const char *const groups[GIS_N_GROUPS] = {
-    [GIS_GROUP_OWN] = "command",     [GIS_GROUP_IDENTITY] = "identity", [GIS_GROUP_ROOM] = "room",
-    [GIS_GROUP_INPUT] = "features",  [GIS_GROUP_OUTPUT] = "output",     [GIS_GROUP_TROUBLE] = "trouble",
-    [GIS_GROUP_RUNNING] = "running", [GIS_GROUP_HIDDEN] = "hidden",
+    [GIS_GROUP_OWN] = "command",     [GIS_GROUP_IDENTITY] = "identity", [GIS_GROUP_PLACES] = "places",
+    [GIS_GROUP_ROOM] = "room",       [GIS_GROUP_INPUT] = "features",    [GIS_GROUP_OUTPUT] = "output",
+    [GIS_GROUP_TROUBLE] = "trouble", [GIS_GROUP_RUNNING] = "running",   [GIS_GROUP_HIDDEN] = "hidden",
 };
 
 static void put_piece(gis_json *out, const char *piece, size_t n)

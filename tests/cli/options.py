@@ -8,7 +8,7 @@ import sys
 KEYS = ["name", "aliases", "kind", "values", "metavar", "repeatable", "needed", "needs", "default", "default_text", "group", "help"]
 KINDS = {"flag", "text", "layer", "field", "sql", "statement", "shape", "point", "dataset", "output", "file", "format", "crs",
          "enum", "enums", "length", "integer", "number", "scale", "box", "flag_or_enum", "barrier", "setting"}
-GROUPS = {"command", "identity", "room", "features", "output", "trouble", "running", "hidden"}
+GROUPS = {"command", "identity", "places", "room", "features", "output", "trouble", "running", "hidden"}
 LISTED_WITH_WORDS = {"command", "identity"}
 trouble = []
 

@@ -12,13 +12,13 @@ for command in separate check sum pair buffer route plan merge follow; do
     # a group of options on one line stands behind its title
     "$SUNDER" $command --help | sed 's/^\([A-Z][^:]*:\) --/\1\n  --/' >help
     # Either one option per line, with its explanation after two blanks or more, or several per line, with commas.
-    sed -n '/^Options/,/^Features\|^Which/ p' help | sed -n 's/^  \(--[a-z-]*\( [^ ]*\)\{0,1\}\)  *.*$/\1/p' | sed 's/ *$//' >own
+    sed -n '/^Options/,/^Preferred\|^Features\|^Which/ p' help | sed -n 's/^  \(--[a-z-]*\( [^ ]*\)\{0,1\}\)  *.*$/\1/p' | sed 's/ *$//' >own
     while read -r option; do
         fallback=$(grep -F -- "  $option " help | sed -n 's/.*\( \[[^]]*\]\)$/\1/p')
         echo "$option$fallback"
     done <own
     # Commas separate options, but not within the brackets that contain other spellings.
-    sed -n '/^Features\|^Which\|^Running/,/^P, Q\|^OBSTACLES\|^SHAPE\|^Lengths\|^Exit/ p' help | grep '^  ' | sed 's/^ *//; s/,$//' | awk '{
+    sed -n '/^Preferred\|^Features\|^Which\|^Running/,/^P, Q\|^OBSTACLES\|^SHAPE\|^Lengths\|^Exit/ p' help | grep '^  ' | sed 's/^ *//; s/,$//' | awk '{
         depth = 0; entry = ""
         for (i = 1; i <= length($0); i++) {
             c = substr($0, i, 1)

@@ -46,6 +46,7 @@ id,WKT
 1,"POLYGON((0 0,4 0,4 4,0 4,0 0))"
 2,"POLYGON((3 0,7 0,7 4,3 4,3 0))"
 X
+expect 0 separate in.gpkg earlier.gpkg --quiet
 # Every value that --help lists for an option is accepted by its parser.
 words_tried=0
 for command in separate check sum pair buffer route plan merge follow; do
@@ -64,6 +65,7 @@ for command in separate check sum pair buffer route plan merge follow; do
         separate,--hide-weight | separate,--crossed | plan,--hide-weight | plan,--crossed)
             with=(--hide) ;; # without that they are refused: test_options.sh
         check,--crossed) with=(--inset 1) ;;
+        separate,--previous-relax) with=(--previous earlier.gpkg) ;;
         *) with=() ;;
         esac
         for word in ${words//|/ }; do
