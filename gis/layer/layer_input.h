@@ -52,7 +52,7 @@ typedef struct gis_previous {
     double *move;  /* [2 n] the former moves; 0 for features that are new */
     size_t *of;    /* [n] the number of the feature in that result; SIZE_MAX: it is new */
     bool *relaxed; /* [n] it stood near a place that is empty now, and is free to go back */
-    size_t gone;   /* the number of features of that result that are not in the layer */
+    size_t gone;   /* the number of its features that the layer does not have */
 } gis_previous;
 
 typedef struct gis_layer_input {

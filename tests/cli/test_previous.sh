@@ -34,7 +34,7 @@ done
 expect 0 separate next.gpkg later.gpkg --gap 2 --id-field id --overwrite --previous first.gpkg
 grep -q '^since the previous result: kept [0-9]*, changed [0-9]*, new 2, gone 3; free to go back [1-9]' out || fail "$(cat out)"
 
-# Three squares in a row, of which the middle one goes: the others may go back. By FID.
+# Three squares in a row. The middle one is deleted, so the others may go back. By FID.
 pair() { # FILE WKT...
     printf 'id,WKT\n' >"$1.csv"
     for wkt in "${@:2}"; do printf '%s,"%s"\n' "${wkt%%:*}" "${wkt#*:}" >>"$1.csv"; done

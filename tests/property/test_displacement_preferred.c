@@ -96,7 +96,7 @@ static sunder_report *separate(const street *s, const double *preferred, sunder_
     if (try_separate(s, preferred, &report)) fail_msg("the layer cannot be separated");
     sunder_report_summary(report, summary);
     assert_true(summary->verified);
-    if (!s->has_road) { /* the test of that rule knows no barriers */
+    if (!s->has_road) { /* that rule is tested without barriers */
         const char *worse = upheld_breach(s->feature, s->n, &s->options, report);
         if (worse) fail_msg("%s", worse);
     }

@@ -201,7 +201,7 @@ void sunder_i_influence_place(sunder_i_influence *influence, const sunder_i_mode
 
 static bool is_root(const sunder_i_influence *g, uint32_t b) { return g->active[b] && g->root[b] == b; }
 
-/* Joins any two sets in world[] of which one read where the other stood. */
+/* Joins two sets in world[] if one read where the other stood. */
 static sunder_status meet_readers(const sunder_i_influence *g, uint32_t *world, sunder_error *err)
 {
     bool *there = sunder_i_calloc(g->bodies, sizeof *there);

@@ -118,8 +118,9 @@ const char *sunder_i_search_check(const sunder_i_search *search);
 static inline uint64_t sunder_i_search_work(const sunder_i_search *s) { return s->steps + s->program.work; }
 /* The limit of body i's move. */
 double sunder_i_search_limit(const sunder_i_search *search, uint32_t i);
-/* The distance of body k, at its present move, from the one that it prefers; the square of that distance at t. */
+/* The distance between the present move of body k and the move that it prefers. */
 double sunder_i_search_stray(const sunder_i_search *search, size_t k);
+/* The square of that distance for the move of body k in t. */
 double sunder_i_search_stray_square(const sunder_i_search *search, size_t k, const double *t);
 /* By how much body i exceeds its limit at t; 0 if it exceeds it by at most the slack that limits.c defines. */
 double sunder_i_search_excess(const sunder_i_search *search, uint32_t i, const double *t);
