@@ -200,7 +200,7 @@ typedef struct sunder_hiding_component {
     size_t feature; /* the least number of its features */
     size_t clauses, proved, forced, rounds, smaller;
     int64_t smaller_cost, smaller_least;
-    size_t class, classes; /* its classes in sunder_report_component_classes(): the first, and their number */
+    size_t first_class, classes; /* its classes in sunder_report_component_classes() */
     bool best;
 } sunder_hiding_component;
 /* Returns the components, in the order of their first features, and sets *n to their number. */

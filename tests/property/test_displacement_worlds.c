@@ -242,8 +242,8 @@ static size_t demand_same_components(const sunder_report *whole, const sunder_re
         assert_true(j < m);
         sunder_hiding_component other = d[j++];
         other.feature = from[other.feature];
-        const size_t first = other.class;
-        other.class = c[k].class;
+        const size_t first = other.first_class;
+        other.first_class = c[k].first_class;
         assert_int_equal(c[k].feature, other.feature);
         assert_int_equal(c[k].clauses, other.clauses);
         assert_int_equal(c[k].proved, other.proved);
@@ -255,9 +255,9 @@ static size_t demand_same_components(const sunder_report *whole, const sunder_re
         assert_int_equal(c[k].best, other.best);
         assert_int_equal(c[k].classes, other.classes);
         for (size_t i = 0; i < other.classes; i++) {
-            assert_int_equal(p[c[k].class + i].hierarchy, q[first + i].hierarchy);
-            assert_int_equal(p[c[k].class + i].hidden, q[first + i].hidden);
-            assert_int_equal(p[c[k].class + i].weight, q[first + i].weight);
+            assert_int_equal(p[c[k].first_class + i].hierarchy, q[first + i].hierarchy);
+            assert_int_equal(p[c[k].first_class + i].hidden, q[first + i].hidden);
+            assert_int_equal(p[c[k].first_class + i].weight, q[first + i].weight);
             assert_int_equal(p[c[k].class + i].least, q[first + i].least);
         }
         found++;

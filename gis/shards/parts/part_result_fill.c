@@ -156,12 +156,12 @@ bool gis_part_fill_component(gis_part *p, size_t number, gis_error *error)
     gis_part_result *out = p->out;
     size_t n;
     sunder_hiding_component to = sunder_report_hiding_components(p->report, &n)[number];
-    const sunder_hiding_class *class = sunder_report_component_classes(p->report, &n) + to.class;
+    const sunder_hiding_class *class = sunder_report_component_classes(p->report, &n) + to.first_class;
     if (!GIS_PART_MORE(out, component, components, 1, error) || !GIS_PART_MORE(out, class, classes, to.classes, error))
         return false;
     for (size_t k = 0; k < to.classes; k++) out->class[out->classes++] = class[k];
     to.feature = gis_part_index_of(p, to.feature);
-    to.class = 0; /* the classes of all components of the world are summed */
+    to.first_class = 0; /* the classes of all components of the world are summed */
     out->component[out->components++] = to;
     return true;
 }

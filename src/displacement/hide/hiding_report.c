@@ -109,7 +109,7 @@ static bool sum_entries(const listing *l, const entry *list, size_t n)
             of->weight += list[end].weight;
             of->least += list[end].least;
         }
-        if (c->classes++ == 0) c->class = classes;
+        if (c->classes++ == 0) c->first_class = classes;
         c->best = c->best && of->weight == of->least;
         classes++;
     }
