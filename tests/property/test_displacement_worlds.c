@@ -258,7 +258,7 @@ static size_t demand_same_components(const sunder_report *whole, const sunder_re
             assert_int_equal(p[c[k].first_class + i].hierarchy, q[first + i].hierarchy);
             assert_int_equal(p[c[k].first_class + i].hidden, q[first + i].hidden);
             assert_int_equal(p[c[k].first_class + i].weight, q[first + i].weight);
-            assert_int_equal(p[c[k].class + i].least, q[first + i].least);
+            assert_int_equal(p[c[k].first_class + i].least, q[first + i].least);
         }
         found++;
     }
