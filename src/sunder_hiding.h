@@ -203,6 +203,8 @@ typedef struct sunder_hiding_component {
     size_t first_class, classes; /* its classes in sunder_report_component_classes() */
     bool best;
 } sunder_hiding_component;
+/* Adds a component to a summary, which begins with zeros. `rounds` becomes the greatest of all components. */
+SUNDER_EXPERIMENTAL void sunder_hiding_add(sunder_hiding_summary *sum, const sunder_hiding_component *component);
 /* Returns the components, in the order of their first features, and sets *n to their number. */
 SUNDER_EXPERIMENTAL const sunder_hiding_component *sunder_report_hiding_components(const sunder_report *report,
                                                                                    size_t *n);

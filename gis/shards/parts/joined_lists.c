@@ -97,19 +97,6 @@ static void add_counts(sunder_conflict_counts *to, const sunder_conflict_counts 
 
 /* ---- Sums of what is hidden -------------------------------------------------------------------------------------- */
 
-static void add_component(sunder_hiding_summary *to, const sunder_hiding_component *from)
-{
-    to->components++;
-    to->components_best += from->best;
-    to->clauses += from->clauses;
-    to->proved += from->proved;
-    to->forced += from->forced;
-    to->smaller += from->smaller;
-    to->smaller_cost += from->smaller_cost;
-    to->smaller_least += from->smaller_least;
-    if (from->rounds > to->rounds) to->rounds = from->rounds;
-}
-
 /* Adds what a component hides of a class; classes are sorted, and few. */
 static bool add_class(gis_joined *j, const sunder_hiding_class *from, gis_error *error)
 {
@@ -148,7 +135,7 @@ static bool put_world(gathering *g, const gis_part_result *r, const gis_part_wor
     s->thin += w->thin;
     s->clusters += w->clusters;
     s->clusters_optimal += w->clusters_optimal;
-    for (size_t k = 0; k < w->components; k++) add_component(&g->out->hiding.sum, &r->component[w->component + k]);
+    for (size_t k = 0; k < w->components; k++) sunder_hiding_add(&g->out->hiding.sum, &r->component[w->component + k]);
     for (size_t k = 0; k < w->classes && done; k++) done = add_class(g->out, &r->class[w->class + k], error);
     for (size_t k = w->bound; k < w->bound + w->bounds; k++) {
         sunder_total_add(&g->proved, r->bound[k].proved);

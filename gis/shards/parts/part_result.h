@@ -129,7 +129,7 @@ typedef struct gis_part_result {
 } gis_part_result;
 
 void gis_part_result_clear(gis_part_result *result);
-/* A world without items, whose lists begin at the ends of those of *result. */
+/* Returns a world without items: each of its lists begins where the one of *result ends. */
 gis_part_world gis_part_world_at(const gis_part_result *result);
 /* Empties all lists, but keeps their memory. */
 void gis_part_result_empty(gis_part_result *result);

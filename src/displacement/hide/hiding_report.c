@@ -39,6 +39,7 @@ typedef struct listing {
     uint32_t *root; /* [features] the least feature of the component */
     size_t *at;     /* [features] of roots: the number of the component; SIZE_MAX: the feature is in no clause */
     sunder_report *report;
+    size_t components;
 } listing;
 
 static sunder_hiding_component *component_of(const listing *l, size_t feature)
@@ -62,7 +63,7 @@ static bool begin_components(listing *l)
     for (size_t f = 0; f < h->layer->n && component; f++)
         if (l->at[f] != SIZE_MAX) component[l->at[f]] = (sunder_hiding_component){.feature = f, .best = true};
     l->report->component = component;
-    l->report->hiding.components = n;
+    l->components = n;
     return component;
 }
 
@@ -253,21 +254,17 @@ static sunder_status count_smaller(const listing *l, uint32_t *level, sunder_err
     return status;
 }
 
-/* Adds up the components. */
-static void sum_components(sunder_report *report)
+void sunder_hiding_add(sunder_hiding_summary *sum, const sunder_hiding_component *component)
 {
-    sunder_hiding_summary *out = &report->hiding;
-    for (size_t k = 0; k < out->components; k++) {
-        const sunder_hiding_component *c = &report->component[k];
-        out->components_best += c->best;
-        out->clauses += c->clauses;
-        out->proved += c->proved;
-        out->forced += c->forced;
-        out->smaller += c->smaller;
-        out->smaller_cost += c->smaller_cost;
-        out->smaller_least += c->smaller_least;
-        if (c->rounds > out->rounds) out->rounds = c->rounds;
-    }
+    sum->components++;
+    sum->components_best += component->best;
+    sum->clauses += component->clauses;
+    sum->proved += component->proved;
+    sum->forced += component->forced;
+    sum->smaller += component->smaller;
+    sum->smaller_cost += component->smaller_cost;
+    sum->smaller_least += component->smaller_least;
+    if (component->rounds > sum->rounds) sum->rounds = component->rounds;
 }
 
 /* Makes the list of components. level: scratch [n]. */
@@ -279,7 +276,8 @@ static sunder_status report_components(listing *l, const sunder_i_hiding_bound *
     ok = ok && sum_entries(l, list, list_entries(l, bound, list)) && report_classes(l->report) && count_clauses(l);
     sunder_i_free(list);
     const sunder_status status = ok ? count_smaller(l, level, err) : sunder_i_failure_cause(err);
-    if (!status) sum_components(l->report);
+    for (size_t k = 0; k < l->components && !status; k++)
+        sunder_hiding_add(&l->report->hiding, &l->report->component[k]);
     sunder_i_free_all(l->root, l->at);
     return status;
 }

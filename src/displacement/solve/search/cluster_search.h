@@ -120,7 +120,7 @@ static inline uint64_t sunder_i_search_work(const sunder_i_search *s) { return s
 double sunder_i_search_limit(const sunder_i_search *search, uint32_t i);
 /* The distance between the present move of body k and the move that it prefers. */
 double sunder_i_search_stray(const sunder_i_search *search, size_t k);
-/* The square of that distance for the move of body k in t. */
+/* The square of the distance between the move of body k in t and the move that it prefers. */
 double sunder_i_search_stray_square(const sunder_i_search *search, size_t k, const double *t);
 /* By how much body i exceeds its limit at t; 0 if it exceeds it by at most the slack that limits.c defines. */
 double sunder_i_search_excess(const sunder_i_search *search, uint32_t i, const double *t);
