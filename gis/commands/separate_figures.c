@@ -166,7 +166,7 @@ static void json_shrunk(gis_json *out, const gis_separate_run *run)
 
 /* What became of the moves of an earlier result. */
 typedef struct gis_moves_since {
-    size_t kept, changed, new, relaxed;
+    size_t kept, changed, new, edited, relaxed;
 } gis_moves_since;
 
 static gis_moves_since count_moves_since(const gis_separate_run *run)
@@ -177,7 +177,8 @@ static gis_moves_since count_moves_since(const gis_separate_run *run)
         double dx, dy;
         const double *was = previous->move + 2 * i;
         sunder_report_move(run->report, i, &dx, &dy);
-        count.relaxed += previous->relaxed[i];
+        count.edited += previous->edited[i];
+        count.relaxed += previous->relaxed[i] && !previous->edited[i];
         if (previous->of[i] == SIZE_MAX)
             count.new ++;
         else if (dx == was[0] && dy == was[1])
@@ -197,6 +198,7 @@ static void json_previous(gis_json *out, const gis_separate_run *run)
     gis_json_put_size(out, "changed", count.changed);
     gis_json_put_size(out, "new", count.new);
     gis_json_put_size(out, "gone", run->input.previous.gone);
+    gis_json_put_size(out, "edited", count.edited);
     gis_json_put_size(out, "relaxed", count.relaxed);
     gis_json_close(out, '}');
 }
@@ -363,8 +365,8 @@ static void print_previous(const gis_separate_run *run)
 {
     if (!run->input.previous.move) return;
     const gis_moves_since count = count_moves_since(run);
-    printf("since the previous result: kept %zu, changed %zu, new %zu, gone %zu; free to go back %zu\n", count.kept,
-           count.changed, count.new, run->input.previous.gone, count.relaxed);
+    printf("since the previous result: kept %zu, changed %zu, new %zu, gone %zu, edited %zu; free to go back %zu\n",
+           count.kept, count.changed, count.new, run->input.previous.gone, count.edited, count.relaxed);
 }
 
 bool gis_separate_print(const void *separated, gis_error *error)

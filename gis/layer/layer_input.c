@@ -266,6 +266,7 @@ static void clear_previous(gis_previous *previous)
 {
     free(previous->move);
     free(previous->of);
+    free(previous->edited);
     free(previous->relaxed);
     *previous = (gis_previous){0};
 }

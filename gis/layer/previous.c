@@ -1,13 +1,13 @@
 /* previous.c: the result of an earlier run (--previous): its moves are preferred, and features near a place that is
- * empty now are free to go back.
+ * empty now are free to go back, since the layer would otherwise keep moves whose reason is gone.
  *
- * A place is empty if its feature is not in the layer any more, or stands elsewhere in it: then the box of its geometry
- * plus its former move is not that of the result. Where shapes change their size that would be so of nearly all, and
- * only features that are gone count. Without going back a layer would keep moves whose reason is gone. */
+ * A place of the result is empty if its feature is not in the layer any more, or was edited (previous_edits.c): what
+ * stands there may be smaller now, or elsewhere. A feature that was edited is free to go back itself. */
 #include "layer/feature_keys.h"
+#include "layer/previous_edits.h"
 
 #include "base/message.h"
-#include "layer/levels.h"
+#include "read/crs_units.h"
 #include "read/fields.h"
 
 #include <math.h>
@@ -17,10 +17,9 @@
 /* Features go back that stood within this many gaps of a place that is empty now. */
 static const double gaps_of_reach = 1.1;
 
-/* A place that is empty now, and the feature that stood there; SIZE_MAX: it is gone. */
+/* The box of a place that is empty now. */
 typedef struct empty_place {
     double box[4];
-    size_t feature;
 } empty_place;
 
 typedef struct reading {
@@ -46,6 +45,9 @@ static bool open_result(reading *r, gis_error *error)
     r->request.rules = (gis_layer_rules){.core = now->rules.core};
     r->request.barriers = 0;
     if (!gis_layer_begin(&r->request, true, &r->before, error)) return false;
+    if (!gis_crs_may_be_same(gis_source_crs(r->input->source), gis_source_crs(r->before.source)))
+        return gis_fail(error, "--previous %s: it is in another CRS than layer %s; give a result of the same layer",
+                        now->previous, gis_source_name(r->input->source));
     static const char *const name[] = {"sunder_dx", "sunder_dy"};
     for (int c = 0; c < 2; c++) {
         r->move_field[c] = gis_source_field(r->before.source, name[c]);
@@ -106,11 +108,10 @@ static bool box_of(OGRGeometryH geometry, double box[4])
 }
 
 /* Adds the place of a feature of the result, grown by half of the largest symbol if it is a point. */
-static void add_place(reading *r, const double box[4], size_t feature, const double symbol[2])
+static void add_place(reading *r, const double box[4], const double symbol[2])
 {
     empty_place *e = &r->empty[r->empties++];
     for (int k = 0; k < 4; k++) e->box[k] = box[k] + (k < 2 ? -symbol[k & 1] : symbol[k & 1]);
-    e->feature = feature;
     r->widest = fmax(r->widest, e->box[2] - e->box[0]);
 }
 
@@ -132,39 +133,24 @@ static void largest_symbol(const gis_layer_input *input, double half[2])
     }
 }
 
-/* Does feature i stand elsewhere in the layer than it did? */
-static bool stands_elsewhere(const reading *r, size_t i, const double was[4])
-{
-    const double *move = r->input->previous.move + 2 * i;
-    double box[4];
-    if (!box_of(gis_source_geometry(r->input->source, i), box)) return true;
-    for (int k = 0; k < 4; k++)
-        if (box[k] + move[k & 1] != was[k]) return true;
-    return false;
-}
-
 static bool list_empty_places(reading *r, gis_error *error)
 {
-    gis_layer_input *input = r->input;
-    const gis_layer_rules *rules = &input->request->rules;
+    const gis_layer_input *input = r->input;
     const size_t n = gis_source_count(r->before.source);
-    const bool same_size = !gis_levels_asked(rules) && !rules->enlarge;
     double symbol[2], box[4];
     r->empty = malloc((n + 1) * sizeof *r->empty);
     if (!r->empty) return gis_no_memory(error);
     largest_symbol(input, symbol);
     for (size_t k = 0; k < n; k++)
-        if (!r->matched[k] && box_of(gis_source_geometry(r->before.source, k), box))
-            add_place(r, box, SIZE_MAX, symbol);
-    for (size_t i = 0; i < input->n && same_size; i++)
-        if (input->previous.of[i] != SIZE_MAX &&
-            box_of(gis_source_geometry(r->before.source, input->previous.of[i]), box) && stands_elsewhere(r, i, box))
-            add_place(r, box, i, symbol);
-    qsort(r->empty, r->empties, sizeof *r->empty, by_left);
+        if (!r->matched[k] && box_of(gis_source_geometry(r->before.source, k), box)) add_place(r, box, symbol);
+    for (size_t i = 0; i < input->n; i++)
+        if (input->previous.edited[i] && box_of(gis_source_geometry(r->before.source, input->previous.of[i]), box))
+            add_place(r, box, symbol);
+    if (r->empties) qsort(r->empty, r->empties, sizeof *r->empty, by_left);
     return true;
 }
 
-/* Did feature i stand within reach of a place that is empty now, other than its own? */
+/* Did feature i stand within reach of a place that is empty now? */
 static bool stood_near_empty(const reading *r, size_t i)
 {
     const double *move = r->input->previous.move + 2 * i;
@@ -182,7 +168,7 @@ static bool stood_near_empty(const reading *r, size_t i)
     }
     for (; low < r->empties && r->empty[low].box[0] <= box[2]; low++) {
         const double *e = r->empty[low].box;
-        if (r->empty[low].feature != i && e[2] >= box[0] && e[1] <= box[3] && e[3] >= box[1]) return true;
+        if (e[2] >= box[0] && e[1] <= box[3] && e[3] >= box[1]) return true;
     }
     return false;
 }
@@ -193,7 +179,7 @@ static int by_value(const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
-/* Lets features near empty places go back, with all members of their former blocks. */
+/* Lets edited features and those near empty places go back, with all members of their former blocks. */
 static bool relax_features(reading *r, gis_error *error)
 {
     gis_layer_input *input = r->input;
@@ -203,7 +189,7 @@ static bool relax_features(reading *r, gis_error *error)
     if (!block) return gis_no_memory(error);
     r->reach = gaps_of_reach * input->gap;
     for (size_t i = 0; i < input->n; i++) {
-        out->relaxed[i] = out->of[i] != SIZE_MAX && stood_near_empty(r, i);
+        out->relaxed[i] = out->edited[i] || (out->of[i] != SIZE_MAX && stood_near_empty(r, i));
         if (out->relaxed[i] && r->block[i] >= 0) block[blocks++] = r->block[i];
     }
     qsort(block, blocks, sizeof *block, by_value);
@@ -211,6 +197,22 @@ static bool relax_features(reading *r, gis_error *error)
         if (r->block[i] >= 0 && bsearch(&r->block[i], block, blocks, sizeof *block, by_value)) out->relaxed[i] = true;
     free(block);
     return true;
+}
+
+/* Most features of a layer that is made again are as they were, unless keys have changed. */
+static void warn_of_edits(const reading *r)
+{
+    const gis_previous *previous = &r->input->previous;
+    size_t edited = 0, matched = 0;
+    for (size_t i = 0; i < r->input->n; i++) {
+        edited += previous->edited[i];
+        matched += previous->of[i] != SIZE_MAX;
+    }
+    if (2 * edited > matched && r->input->id_field < 0)
+        gis_say_warning(GIS_MESSAGE_PASSED_BY,
+                        "--previous: %zu of %zu features have another geometry than when %s was made; if FIDs have "
+                        "changed since, match features by --id-field",
+                        edited, matched, r->request.previous);
 }
 
 /* ---- All of it --------------------------------------------------------------------------------------------------- */
@@ -225,13 +227,17 @@ bool gis_previous_read(gis_layer_input *input, gis_error *error)
         out->move = calloc(2 * input->n + 1, sizeof *out->move);
         out->of = malloc((input->n + 1) * sizeof *out->of);
         out->relaxed = calloc(input->n + 1, sizeof *out->relaxed);
+        out->edited = calloc(input->n + 1, sizeof *out->edited);
         r.matched = calloc(gis_source_count(r.before.source) + 1, sizeof *r.matched);
         r.block = malloc((input->n + 1) * sizeof *r.block);
-        ok = (out->move && out->of && out->relaxed && r.matched && r.block) || gis_no_memory(error);
+        ok = (out->move && out->of && out->relaxed && out->edited && r.matched && r.block) || gis_no_memory(error);
     }
     for (size_t i = 0; i < input->n && ok; i++) out->of[i] = SIZE_MAX;
     ok = ok && match_features(&r, error);
-    if (ok && !input->request->previous_stays) ok = list_empty_places(&r, error) && relax_features(&r, error);
+    ok = ok && gis_previous_find_edits(input, &r.before, out->edited, error);
+    if (ok) warn_of_edits(&r);
+    if (ok && !input->request->previous_stays) ok = list_empty_places(&r, error);
+    ok = ok && relax_features(&r, error);
     gis_feature_keys_free(r.key, r.key ? gis_source_count(r.before.source) : 0);
     free(r.matched);
     free(r.block);

@@ -1,10 +1,13 @@
 """A small town for the test of --previous, the same town a month later, and what may have changed between two results.
 
-    previous_town.py make NOW.csv NEXT.csv     houses in rows; one in a dozen is gone, moved or new in NEXT
+    previous_town.py make NOW.csv NEXT.csv     houses in rows; one in ten is gone, moved, cut at a corner or new in NEXT
+    previous_town.py odd ODD.csv EDITED.csv    the same with holes and parts, at coordinates of many digits; in EDITED one
+                                               coordinate is the next double
     previous_town.py compare NOW.gpkg NEXT.gpkg RESULT_NOW.gpkg RESULT_NEXT.gpkg REACH
                                                prints: unchanged houses; how many of them moved otherwise; how many of
                                                these are in no chain of houses within REACH that has a changed one
 """
+import math
 import random
 import sqlite3
 import struct
@@ -27,11 +30,33 @@ def make(now, then):
         later.append((key, x + 1.5, y - 0.5, w, h) if k % 40 == 26 else (key, x, y, w, h))
     later += [(1000 + k, houses[k][1] + 4, houses[k][2] + 5, 5.5, 6) for k in (35, 75)]
     rng.shuffle(later)  # so FIDs differ
+    corner = {houses[k][0] for k in range(0, len(houses), 40)}  # they keep their boxes
     for path, town in ((now, houses), (then, later)):
         with open(path, "w") as out:
             out.write("id,WKT\n")
             for key, x, y, w, h in town:
-                out.write('%d,"POLYGON((%r %r,%r %r,%r %r,%r %r,%r %r))"\n' % (key, x, y, x + w, y, x + w, y + h, x, y + h, x, y))
+                cut = 2 if town is later and key in corner else 0
+                ring = [(x, y), (x + w, y), (x + w, y + h - cut), (x + w - cut, y + h), (x, y + h), (x, y)]
+                out.write('%d,"POLYGON((%s))"\n' % (key, ",".join("%r %r" % v for v in ring[:3] + ring[3 + (not cut):])))
+
+
+def odd(path, edited):
+    rng = random.Random(12)
+    for name, nudged in ((path, None), (edited, 17)):
+        rng.seed(12)
+        with open(name, "w") as out:
+            out.write("id,WKT\n")
+            for k in range(40):
+                x, y = 32500000.1 + 13.7 * (k % 8) + rng.random(), 5300000.3 + 12.9 * (k // 8) + rng.random()
+                parts = []
+                for u in (x, x + 6) if k % 3 == 0 else (x,):
+                    w, h = 5 + rng.random(), 10 + 2 * rng.random()
+                    top = math.nextafter(y + h, math.inf) if k == nudged else y + h
+                    parts.append([[(u, y), (u + w, y), (u + w, top), (u, y + h), (u, y)]])
+                    if k % 2:
+                        parts[-1].append([(u + 1, y + 1), (u + 1, y + 2), (u + 2, y + 3), (u + 1, y + 1)])
+                text = ",".join("(%s)" % ",".join("(%s)" % ",".join("%r %r" % v for v in ring) for ring in p) for p in parts)
+                out.write('%d,"MULTIPOLYGON(%s)"\n' % (k + 1, text))
 
 
 def read(path, columns):
@@ -60,5 +85,7 @@ def compare(now, then, result, next_result, reach):
 
 if sys.argv[1] == "make":
     make(*sys.argv[2:])
+elif sys.argv[1] == "odd":
+    odd(*sys.argv[2:])
 else:
     compare(*sys.argv[2:6], float(sys.argv[6]))

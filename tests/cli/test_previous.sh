@@ -1,6 +1,7 @@
 # shellcheck shell=bash disable=SC1091
 # --previous: the same layer again gives the same bytes; next month only groups with a change move; a house beside one
-# that is gone goes back, unless --previous-relax no. By key and by FID; for points, too. What is wrong is refused.
+# that is gone or was edited goes back, unless --previous-relax no. By key and by FID; for points, too. What was edited is
+# found in all formats. What is wrong is refused.
 . "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
 export SOURCE_DATE_EPOCH=0
 town() { python3 "$SUNDER_SOURCE/tests/cli/previous_town.py" "$@" || fail "previous_town.py $1"; }
@@ -26,13 +27,13 @@ for more in "" "--rows no --max-shift 6" "--previous-relax no"; do
     read -r houses moved outside < <(town compare now.gpkg next.gpkg first.gpkg later.gpkg 8)
     [ "$outside" = 0 ] || fail "$outside of $houses houses moved without a reason: $more"
     [ "$moved" -gt 0 ] && [ "$moved" -lt 40 ] || fail "$moved of $houses houses moved: $more"
-    same "$(previous later.json new gone)" "2 3" "houses, $more:"
+    same "$(previous later.json new gone edited)" "2 3 6" "houses, $more:"
     # shellcheck disable=SC2086
     expect 0 separate next.gpkg settled.gpkg "${options[@]}" --previous later.gpkg $more
     [ "$(town compare next.gpkg next.gpkg later.gpkg settled.gpkg 0)" = "119 0 0" ] || fail "a result does not stay: $more"
 done
 expect 0 separate next.gpkg later.gpkg --gap 2 --id-field id --overwrite --previous first.gpkg
-grep -q '^since the previous result: kept [0-9]*, changed [0-9]*, new 2, gone 3; free to go back [1-9]' out || fail "$(cat out)"
+grep -q '^since the previous result: kept [0-9]*, changed [0-9]*, new 2, gone 3, edited 6; free to go back [1-9]' out || fail "$(cat out)"
 
 # Three squares in a row. The middle one is deleted, so the others may go back. By FID.
 pair() { # FILE WKT...
@@ -52,13 +53,62 @@ expect 0 separate two.gpkg p.gpkg --gap 1 --rows no -q --overwrite --previous o.
 same "$(value p.gpkg town 1 sunder_dx) $(value p.gpkg town 2 sunder_dx) $(previous p.json relaxed kept)" "-0.5 0.5 0 2" \
     'two that stay:'
 
+# The middle one is edited within its box. It has no former move then, with --previous-relax no either, and the others go
+# back. With the left one in a block, that has none either.
+pair edited "$left" "$right" '3:POLYGON((4.5 0,8 0,8 4,4.5 0))'
+expect 0 separate edited.gpkg p.gpkg --gap 1 --rows no -q --overwrite --id-field id --previous o.gpkg --stats p.json
+same "$(previous p.json edited relaxed gone new)" "1 2 0 0" 'one edited:'
+expect 0 separate edited.gpkg p.gpkg --gap 1 --rows no -q --overwrite --previous o.gpkg --previous-relax no --stats p.json
+same "$(previous p.json edited relaxed kept)" "1 0 3" 'one edited, the others stay:'
+pair joined '1:POLYGON((0 0,4 0,4 4,0 4,0 0))' '3:POLYGON((4 0,8 0,8 4,4 4,4 0))' '2:POLYGON((8.5 0,12 0,12 4,8.5 4,8.5 0))'
+pair apart '1:POLYGON((0 0,4 0,4 4,0 4,0 0))' '3:POLYGON((4 0,7 0,7 4,4 4,4 0))' '2:POLYGON((8.5 0,12 0,12 4,8.5 4,8.5 0))'
+expect 0 separate joined.gpkg j.gpkg --gap 1 --rows no -q
+expect 0 separate apart.gpkg p.gpkg --gap 1 --rows no -q --overwrite --previous j.gpkg --previous-relax no --stats p.json
+same "$(value p.gpkg town 1 sunder_dx) $(previous p.json edited relaxed kept)" "0 1 1 1" 'an edited block:'
+
+# Nothing was edited, whatever the format does to rings, and where vectors are not exact; then one house is, by the last
+# bit of one coordinate.
+town odd odd.csv odd_edited.csv
+make odd
+make odd_edited
+for ending in shp fgb geojson; do
+    expect 0 separate odd.gpkg "odd.$ending" --gap 2 -q --layers main --id-field id
+    expect 0 separate odd.gpkg again.fgb --gap 2 -q --layers main --overwrite --id-field id --previous "odd.$ending" --stats odd.json
+    same "$(previous odd.json edited relaxed)" "0 0" "written as $ending:"
+done
+expect 0 separate odd_edited.gpkg again.fgb --gap 2 -q --layers main --overwrite --id-field id --previous odd.shp --stats odd.json
+same "$(previous odd.json edited)" 1 'edited by the last bit:'
+# What was trimmed has another shape in the result, and counts as not edited.
+printf 'id,WKT\n1,"LINESTRING(-5 -1,20 -1)"\n' | layer road.gpkg road LINESTRING
+expect 0 separate three.gpkg t.gpkg --gap 1 --max-shift 0.6 --trim --barrier road.gpkg,width=3 --allow-conflicts -q
+[ "$(value t.gpkg town 1 sunder_lvl)" = 1 ] || fail "nothing was trimmed"
+expect 0 separate three.gpkg p.gpkg --gap 1 --max-shift 0.6 --trim --barrier road.gpkg,width=3 --allow-conflicts -q --overwrite \
+    --previous t.gpkg --stats p.json
+same "$(previous p.json edited relaxed changed)" "0 0 0" 'trimmed:'
+# The result does not know its barriers: without the road the houses stay, except where 0 is preferred.
+expect 0 separate two.gpkg b.gpkg --gap 1 --barrier road.gpkg,width=3 -q
+expect 0 separate two.gpkg p.gpkg --gap 1 -q --overwrite --previous b.gpkg --stats p.json
+same "$(value p.gpkg town 1 sunder_dy) $(previous p.json kept)" "1.5 2" 'without the road:'
+ogr2ogr free.gpkg two.gpkg -sql 'SELECT *, CASE WHEN id = 1 THEN 0.0 END AS zero FROM town' -nln town -dialect sqlite 2>/dev/null || fail "cannot make free.gpkg"
+expect 0 separate free.gpkg p.gpkg --gap 1 -q --overwrite --previous b.gpkg --prefer-dx zero --prefer-dy zero --stats p.json
+same "$(value p.gpkg town 1 sunder_dy) $(previous p.json kept)" "0 1" 'without the road, one is free:'
+# Another order of FIDs: each feature seems to be another one.
+pair turned "$middle" "$left" "$right"
+expect 0 separate turned.gpkg p.gpkg --gap 1 --overwrite --previous o.gpkg
+grep -q 'warning: --previous: 3 of 3 features have another geometry .* --id-field' err || fail "no warning of other FIDs: $(cat err)"
+
 # Symbols of points.
 pair points '1:POINT(0 0)' '2:POINT(3 0)'
 expect 0 separate points.gpkg q.gpkg --symbol square:4 -q
 expect 0 separate points.gpkg r.gpkg --symbol square:4 -q --previous q.gpkg --stats r.json
-same "$(previous r.json kept changed)" "2 0" 'points:'
+same "$(previous r.json kept changed edited)" "2 0 0" 'points:'
+pair points '1:POINT(0 0)' '2:POINT(3 0.5)'
+expect 0 separate points.gpkg r.gpkg --symbol square:4 -q --overwrite --previous q.gpkg --stats r.json
+same "$(previous r.json edited relaxed)" "1 1" 'points, one of them moved:'
 
 refused 1 'no such file' separate two.gpkg never.gpkg --previous missing.gpkg
+ogr2ogr -a_srs EPSG:25833 elsewhere.gpkg o.gpkg town 2>/dev/null || fail "cannot make elsewhere.gpkg"
+refused 1 'in another CRS' separate two.gpkg never.gpkg --previous elsewhere.gpkg
 refused 1 'has no field sunder_dx' separate two.gpkg never.gpkg --previous three.gpkg
 refused 2 'needs --previous' separate two.gpkg never.gpkg --previous-relax no
 refused 2 '--previous-relax' separate two.gpkg never.gpkg --previous o.gpkg --previous-relax maybe
