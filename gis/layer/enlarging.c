@@ -12,7 +12,7 @@ static bool make_larger(const gis_layer_input *input, const bool *rigid, const s
                         sunder_shape **shape, int64_t *block, gis_error *error)
 {
     const sunder_layer_options core = gis_layer_core_options(input);
-    const sunder_enlarging how = {input->min_size, rigid};
+    const sunder_enlarging how = {input->lengths.min_size, rigid};
     sunder_layer *layer = NULL;
     sunder_error why;
     const bool ok = sunder_layer_new(feature, input->n, &layer, &why) == SUNDER_OK &&

@@ -337,7 +337,7 @@ void gis_layer_input_clear(gis_layer_input *input)
 {
     sunder_layer_free(input->layer);
     gis_layer_drop_features(input);
-    free(input->inset);
+    gis_rung_lengths_clear(&input->lengths);
     gis_layer_shaping_free(input->shaping);
     gis_barriers_clear(&input->barriers);
     gis_source_close(input->source);

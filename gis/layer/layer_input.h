@@ -7,6 +7,7 @@
 #include "layer/barriers/barrier.h"
 #include "layer/block_keys.h"
 #include "layer/layer_rules.h"
+#include "layer/rungs.h"
 #include "read/read_shape.h"
 #include "sunder_hiding.h"
 
@@ -39,14 +40,6 @@ void gis_layer_input_request_clear(gis_layer_input_request *request);
 
 typedef struct gis_layer_shaping gis_layer_shaping; /* in shapes.c */
 
-/* The smaller shapes that features may have (levels.h). */
-typedef enum gis_rung { GIS_RUNG_TRIMMED, GIS_RUNG_INSET, GIS_RUNG_SCALED, GIS_RUNG_SYMBOL, GIS_RUNGS } gis_rung;
-typedef struct gis_levels {
-    sunder_shape **shape; /* [features * rungs] feature by feature, from the largest on; NULL: it does not have it */
-    size_t features, rungs;
-    gis_rung *kind; /* [rungs] */
-} gis_levels;
-
 /* What the result of an earlier run says of the features; zeroed: there is none. */
 typedef struct gis_previous {
     double *move;  /* [2 n] the former moves; 0 for features that are new */
@@ -63,19 +56,16 @@ typedef struct gis_layer_input {
     bool points;    /* features are points, and the shapes are their symbols */
     bool as_chords; /* arcs are replaced by their polylines, and shapes are not enlarged to contain the arcs */
     gis_crs_units units;
-    double gap, max_shift; /* in units of the layer; max_shift = INFINITY: no limit */
-    double least_gap;      /* in units of the layer, if the rules have one */
-    double min_size;       /* likewise; 0 if they have none */
-    double tolerance;      /* in units of the layer; negative: the default */
-    sunder_shape **shape;  /* [n] NULL: the feature cannot conflict */
-    sunder_shape **given;  /* [n] the shape as read of each enlarged feature, NULL for others; NULL: none */
-    size_t enlarged;       /* the number of features made larger */
-    bool blocks_given;     /* feature[].block decides alone; no blocks are formed by touching */
-    double *inset;         /* [insets] the lengths of --inset, in units of the layer */
-    size_t insets;
-    double symbol_size;      /* in units of the layer; 0 if it is not given */
-    gis_levels levels;       /* the smaller shapes that features may have, if they are to be moved */
-    sunder_feature *feature; /* [n] */
+    double gap, max_shift;    /* in units of the layer; max_shift = INFINITY: no limit */
+    double least_gap;         /* in units of the layer, if the rules have one */
+    double tolerance;         /* in units of the layer; negative: the default */
+    sunder_shape **shape;     /* [n] NULL: the feature cannot conflict */
+    sunder_shape **given;     /* [n] the shape as read of each enlarged feature, NULL for others; NULL: none */
+    size_t enlarged;          /* the number of features made larger */
+    bool blocks_given;        /* feature[].block decides alone; no blocks are formed by touching */
+    gis_rung_lengths lengths; /* of the rules for other shapes */
+    gis_levels levels;        /* the smaller shapes that features may have, if they are to be moved */
+    sunder_feature *feature;  /* [n] */
     gis_barriers barriers;
     double barrier_reach; /* barriers are known within this distance of each feature */
     sunder_layer *layer;

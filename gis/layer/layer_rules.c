@@ -35,30 +35,6 @@ bool gis_layer_fields(gis_layer_input *input, gis_error *error)
            gis_field_find_numbers(source, "--weight-field", rules->weight_field, &input->weight_field, error);
 }
 
-/* Reads the lengths of --inset. */
-static bool read_insets(gis_layer_input *input, gis_error *error)
-{
-    const char *text = input->request->rules.inset;
-    double last = 0;
-    if (!text) return true;
-    input->inset = malloc((strlen(text) + 1) * sizeof *input->inset);
-    if (!input->inset) return gis_no_memory(error);
-    for (size_t n; text; text = text[n] ? text + n + 1 : NULL) {
-        gis_length length;
-        const char *why;
-        double *to = &input->inset[input->insets++];
-        n = strcspn(text, ",");
-        if (!gis_length_parse(text, n, &length, &why))
-            return gis_fail_usage(error, "--inset %.*s: %s", (int)n, text, why);
-        if (!gis_length_in_layer_units(&length, &input->units, "--inset", to, error)) return false;
-        if (!(*to > last))
-            return gis_fail_usage(error, "--inset %s: lengths are above 0, and each is greater than the one before",
-                                  input->request->rules.inset);
-        last = *to;
-    }
-    return true;
-}
-
 bool gis_layer_lengths(gis_layer_input *input, gis_error *error)
 {
     const gis_layer_rules *rules = &input->request->rules;
@@ -69,10 +45,7 @@ bool gis_layer_lengths(gis_layer_input *input, gis_error *error)
                                             error) ||
         !gis_optional_length_in_layer_units(&rules->touch_tolerance, &input->units, "--touch-tolerance",
                                             &input->tolerance, error) ||
-        !gis_optional_length_in_layer_units(&rules->min_size, &input->units, "--min-size", &input->min_size, error) ||
-        !gis_optional_length_in_layer_units(&rules->symbol_size, &input->units, "--symbol-size", &input->symbol_size,
-                                            error) ||
-        !read_insets(input, error))
+        !gis_rung_lengths_read(rules, &input->units, &input->lengths, error))
         return false;
     if (rules->least_gap.text && input->least_gap > input->gap)
         return gis_fail_usage(error, "--least-gap %s: must not be greater than the gap, %s", rules->least_gap.text,
@@ -80,9 +53,9 @@ bool gis_layer_lengths(gis_layer_input *input, gis_error *error)
     if (input->gap > 0 && input->tolerance >= input->gap)
         return gis_fail_usage(error, "--touch-tolerance %s: must be less than the gap, %s", rules->touch_tolerance.text,
                               rules->gap.text);
-    if (rules->enlarge && !(input->min_size > 0))
+    if (rules->enlarge && !(input->lengths.min_size > 0))
         return gis_fail_usage(error, "--enlarge: --min-size %s must be above 0", rules->min_size.text);
-    if (rules->symbol_size.text && !(input->symbol_size > 0 && input->symbol_size >= input->min_size))
+    if (rules->symbol_size.text && !(input->lengths.symbol_size > 0 && input->lengths.symbol_size >= input->lengths.min_size))
         return gis_fail_usage(error, "--symbol-size %s: must be above 0, and not below --min-size",
                               rules->symbol_size.text);
     return true;

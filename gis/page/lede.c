@@ -143,7 +143,7 @@ static void add_enlarged(const gis_page_model *model, gis_text *to)
     gis_page_add_number_of(to, input->enlarged, "feature", "features");
     gis_text_add(to, input->enlarged == 1 ? " was" : " were");
     gis_text_add(to, " made larger first, so that ");
-    add_length(model, &input->request->rules.min_size, input->min_size, to);
+    add_length(model, &input->request->rules.min_size, input->lengths.min_size, to);
     gis_text_add(to, " fit into each. ");
 }
 
