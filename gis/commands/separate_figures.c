@@ -136,32 +136,20 @@ static void json_hidden(gis_json *out, const gis_separate_run *run)
     gis_json_close(out, '}');
 }
 
-/* Counts the features on the rungs of each kind. */
-static void count_rungs(const gis_separate_run *run, size_t count[GIS_RUNGS])
-{
-    const gis_levels *levels = &run->input.levels;
-    for (size_t i = 0; levels->rungs && i < run->input.n; i++) {
-        const size_t level = sunder_report_level(run->report, i);
-        if (level && sunder_report_status(run->report, i) != SUNDER_FEATURE_HIDDEN)
-            count[levels->kind[gis_levels_rung(levels, i, level)]]++;
-    }
-}
-
 static const char *const rung_word[GIS_RUNGS] = {"trimmed", "inset", "scaled", "symbols"};
 
 static void json_shrunk(gis_json *out, const gis_separate_run *run)
 {
     gis_hiding all;
-    size_t count[GIS_RUNGS] = {0};
     run->result.kind->hiding(&run->result, &all);
     const sunder_hiding_summary hiding = all.sum;
-    count_rungs(run, count);
     gis_json_key(out, "shrunk");
     gis_json_open(out, '{');
-    for (int kind = 0; kind < GIS_RUNGS; kind++) gis_json_put_size(out, rung_word[kind], count[kind]);
+    for (int kind = 0; kind < GIS_RUNGS; kind++) gis_json_put_size(out, rung_word[kind], all.on_rung[kind]);
     gis_json_put_double(out, "area_lost", (double)hiding.smaller_cost / GIS_SHRINKING_UNIT);
     gis_json_put_double(out, "lower_bound", (double)hiding.smaller_least / GIS_SHRINKING_UNIT);
     gis_json_close(out, '}');
+    gis_json_put_size(out, "enlarged", all.enlarged);
 }
 
 /* What became of the moves of an earlier result. */
@@ -248,7 +236,6 @@ void gis_separate_stats(gis_json *out, const gis_separate_run *run)
     if (run->request.rules.hide || gis_levels_asked(&run->request.rules)) {
         json_hidden(out, run);
         json_shrunk(out, run);
-        gis_json_put_size(out, "enlarged", run->input.enlarged);
         gis_json_line(out);
     }
     gis_json_put_bool(out, "verified", run->verified);
@@ -325,17 +312,17 @@ static void print_rows(const gis_separate_run *run)
            summary->turn_p95);
 }
 
-static void print_shrunk(const gis_separate_run *run, const sunder_hiding_summary *hiding)
+static void print_shrunk(const gis_separate_run *run, const gis_hiding *all)
 {
-    const gis_levels *levels = &run->input.levels;
-    size_t count[GIS_RUNGS] = {0};
-    bool has[GIS_RUNGS] = {false};
-    count_rungs(run, count);
-    for (size_t rung = 0; rung < levels->rungs; rung++) has[levels->kind[rung]] = true;
-    for (int kind = 0; kind < GIS_RUNGS; kind++)
-        if (has[kind]) printf("%s %zu, ", rung_word[kind], count[kind]);
-    printf("weight times share of lost area %.6g, at least %.6g is needed\n",
-           (double)hiding->smaller_cost / GIS_SHRINKING_UNIT, (double)hiding->smaller_least / GIS_SHRINKING_UNIT);
+    bool any = false;
+    for (int kind = 0; kind < GIS_RUNGS; kind++) {
+        if (!gis_rung_asked(&run->request.rules, kind)) continue;
+        printf("%s %zu, ", rung_word[kind], all->on_rung[kind]);
+        any = true;
+    }
+    if (any)
+        printf("weight times share of lost area %.6g, at least %.6g is needed\n",
+               (double)all->sum.smaller_cost / GIS_SHRINKING_UNIT, (double)all->sum.smaller_least / GIS_SHRINKING_UNIT);
 }
 
 static void print_hidden(const gis_separate_run *run)
@@ -347,8 +334,8 @@ static void print_hidden(const gis_separate_run *run)
     printf("hidden %zu, weight %.6g, at least %.6g is needed; %zu of %zu groups proved\n", hiding.hidden,
            (double)hiding.weight / GIS_HIDING_UNIT, (double)hiding.least / GIS_HIDING_UNIT, hiding.components_best,
            hiding.components);
-    if (run->request.rules.enlarge) printf("enlarged %zu\n", run->input.enlarged);
-    if (run->input.levels.rungs) print_shrunk(run, &hiding);
+    if (run->request.rules.enlarge) printf("enlarged %zu\n", all.enlarged);
+    print_shrunk(run, &all);
 }
 
 static void print_shortfall(const gis_separate_run *run)

@@ -57,11 +57,12 @@ bool gis_layer_checksums_add(gis_layer_checksums *sums, const gis_layer_input *i
                          input->hierarchy_field,
                          field_of(input, request->symbol_field),
                          field_of(input, request->symbol_size_field)};
-    enum { FIELDS = sizeof field / sizeof *field, FIRST_FIELD = 3 };
+    enum { FIELDS = sizeof field / sizeof *field, FIRST_FIELD = 4 };
     _Static_assert(FIRST_FIELD + FIELDS == GIS_LAYER_CHECKSUMS, "a sum for each");
     bool done = gis_source_checksum(input->source, &sums->of[0], error) &&
                 add_marks(input, "--ignore-where", request->rules.ignore_where, &sums->of[1], error) &&
-                add_marks(input, "--fixed-where", request->rules.fixed_where, &sums->of[2], error);
+                add_marks(input, "--fixed-where", request->rules.fixed_where, &sums->of[2], error) &&
+                add_marks(input, "--rigid-where", request->rules.rigid_where, &sums->of[3], error);
     for (int k = 0; done && k < FIELDS; k++) done = add_field(input, field[k], &sums->of[FIRST_FIELD + k], error);
     return done;
 }

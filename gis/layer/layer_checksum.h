@@ -5,11 +5,11 @@
 
 #include "layer/layer_input.h"
 
-/* Checksums of FIDs and geometries (gis_source_checksum()), of the results of --ignore-where and --fixed-where, and of
- * the values of --id-field, --block-field, --max-shift-field, --weight-field, --rows, --hierarchy-field, --symbol-field
- * and --symbol-size-field. Each is continued from feature to feature, so the size of batches does not matter. A zeroed
- * struct covers no features. */
-enum { GIS_LAYER_CHECKSUMS = 11 };
+/* Checksums of FIDs and geometries (gis_source_checksum()), of the results of --ignore-where, --fixed-where and
+ * --rigid-where, and of the values of --id-field, --block-field, --max-shift-field, --weight-field, --rows,
+ * --hierarchy-field, --symbol-field and --symbol-size-field. Each is continued from
+ * feature to feature, so the size of batches does not matter. A zeroed struct covers no features. */
+enum { GIS_LAYER_CHECKSUMS = 12 };
 typedef struct gis_layer_checksums {
     uint64_t of[GIS_LAYER_CHECKSUMS];
 } gis_layer_checksums;

@@ -55,7 +55,8 @@ bool gis_layer_lengths(gis_layer_input *input, gis_error *error)
                               rules->gap.text);
     if (rules->enlarge && !(input->lengths.min_size > 0))
         return gis_fail_usage(error, "--enlarge: --min-size %s must be above 0", rules->min_size.text);
-    if (rules->symbol_size.text && !(input->lengths.symbol_size > 0 && input->lengths.symbol_size >= input->lengths.min_size))
+    if (rules->symbol_size.text &&
+        !(input->lengths.symbol_size > 0 && input->lengths.symbol_size >= input->lengths.min_size))
         return gis_fail_usage(error, "--symbol-size %s: must be above 0, and not below --min-size",
                               rules->symbol_size.text);
     return true;

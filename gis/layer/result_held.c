@@ -157,8 +157,21 @@ static bool visit_hidden(const gis_result *r, gis_hidden_visit *visit, void *use
     return ok;
 }
 
+/* Counts the features on the rungs of each kind. */
+static void count_rungs(const gis_result *r, size_t count[GIS_RUNGS])
+{
+    const gis_levels *levels = &r->input->levels;
+    for (size_t i = 0; levels->rungs && i < r->input->n; i++) {
+        const size_t level = sunder_report_level(r->of, i);
+        if (level && sunder_report_status(r->of, i) != SUNDER_FEATURE_HIDDEN)
+            count[levels->kind[gis_levels_rung(levels, i, level)]]++;
+    }
+}
+
 static void sum_hiding(const gis_result *r, gis_hiding *hiding)
 {
+    *hiding = (gis_hiding){.enlarged = r->input->enlarged};
+    count_rungs(r, hiding->on_rung);
     sunder_report_hiding(r->of, &hiding->sum);
     hiding->class = sunder_report_hiding_classes(r->of, &hiding->classes);
 }

@@ -3,8 +3,7 @@
 #ifndef GIS_RESULT_VIEW_H
 #define GIS_RESULT_VIEW_H
 
-#include "base/gis_error.h"
-#include "sunder_hiding.h"
+#include "layer/rungs.h"
 
 #include <ogr_core.h>
 #include <stdint.h>
@@ -38,12 +37,16 @@ typedef struct gis_hidden_row {
     bool proved, forced; /* it is proved; and the feature is the only one that may be hidden for it */
 } gis_hidden_row;
 
-/* What is hidden in all, and what is proved of it; the classes are borrowed. */
+/* What is hidden or has another shape in all, and what is proved of it; the classes are borrowed. */
 typedef struct gis_hiding {
     sunder_hiding_summary sum;
+    size_t enlarged, on_rung[GIS_RUNGS]; /* numbers of features: larger ones, and those on rungs of each kind */
     const sunder_hiding_class *class;
     size_t classes;
 } gis_hiding;
+
+/* Which shape of a feature: as it was read; before all moves and smaller shapes, larger perhaps; in the result. */
+typedef enum gis_view_shape { GIS_VIEW_READ, GIS_VIEW_FIRST, GIS_VIEW_NOW } gis_view_shape;
 
 typedef struct gis_result_view {
     void *of; /* passed to each function */
@@ -60,10 +63,8 @@ typedef struct gis_result_view {
     bool (*rows)(void *of, const sunder_row **row, size_t *n, gis_error *error);
     /* Fetch a shape or geometry, only for an item that has something to draw. What is lent is valid until the next one
      * is fetched. */
-    bool (*shape)(void *of, size_t feature, uint64_t place, const sunder_shape **shape, gis_error *error);
-    /* Returns the shape as it was read, or that of the result if features may become larger or smaller. NULL: they may
-     * not, and shape() has both. */
-    const sunder_shape *(*shape_at)(void *of, size_t feature, bool after);
+    bool (*shape)(void *of, size_t feature, uint64_t place, gis_view_shape which, const sunder_shape **shape,
+                  gis_error *error);
     bool (*geometry)(void *of, uint64_t place, sunder_obstacle *geometry, gis_error *error);
     /* Fetch FIDs (OGRNullFID: none) and texts: the value of --id-field (NULL: none), or for a barrier the name of its
      * layer. */

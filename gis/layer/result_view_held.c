@@ -79,17 +79,15 @@ static bool list_rows(void *of, const sunder_row **row, size_t *n, gis_error *er
     return true;
 }
 
-static bool feature_shape(void *of, size_t feature, uint64_t place, const sunder_shape **out, gis_error *error)
-{
-    (void)place, (void)error;
-    *out = ((const gis_result *)of)->input->shape[feature];
-    return true;
-}
-
-static const sunder_shape *feature_shape_at(void *of, size_t feature, bool after)
+static bool feature_shape(void *of, size_t feature, uint64_t place, gis_view_shape which, const sunder_shape **out,
+                          gis_error *error)
 {
     const gis_result *held = of;
-    return after ? gis_levels_shape_now(held->input, held->of, feature) : gis_layer_original(held->input, feature);
+    (void)place, (void)error;
+    *out = which == GIS_VIEW_READ    ? gis_layer_original(held->input, feature)
+           : which == GIS_VIEW_FIRST ? held->input->shape[feature]
+                                     : gis_levels_shape_now(held->input, held->of, feature);
+    return true;
 }
 
 static bool barrier_geometry(void *of, uint64_t place, sunder_obstacle *out, gis_error *error)
@@ -128,7 +126,7 @@ bool gis_result_held_view(const gis_result *result, gis_result_view *out, gis_er
     *out = (gis_result_view){(void *)result,   result->input->n, result->input->barriers.n,
                              fill_features,    fill_barriers,    list_conflicts,
                              list_hidden,      list_rows,        feature_shape,
-                             feature_shape_at, barrier_geometry, feature_name,
-                             barrier_name,     close_nothing};
+                             barrier_geometry, feature_name,     barrier_name,
+                             close_nothing};
     return true;
 }

@@ -121,7 +121,7 @@ static bool add_anchor(data_writer *writer, size_t i, gis_error *error)
     const sunder_shape *shape;
     double at[2];
     if (length_steps(writer, feature->move[0]) == 0 && length_steps(writer, feature->move[1]) == 0) return true;
-    if (!gis_page_shape(writer->model, i, &shape, error)) return false;
+    if (!gis_page_shape(writer->model, i, GIS_VIEW_FIRST, &shape, error)) return false;
     sunder_shape_anchor(shape, at);
     add_corner(writer, at[0], at[1]);
     return true;
@@ -156,7 +156,8 @@ static void end_feature(data_writer *writer) { add_integer(writer->to, 0); }
 static bool add_shape(data_writer *writer, size_t i, gis_error *error)
 {
     const sunder_shape *shape;
-    if (!gis_page_shape_at(writer->model, i, false, &shape, error) || !add_rings(writer, i, shape, error)) return false;
+    if (!gis_page_shape(writer->model, i, GIS_VIEW_READ, &shape, error) || !add_rings(writer, i, shape, error))
+        return false;
     end_feature(writer);
     return true;
 }
@@ -165,7 +166,7 @@ static bool add_shape_after(data_writer *writer, size_t i, gis_error *error)
 {
     const sunder_shape *shape;
     if (writer->model->feature[i].changed &&
-        (!gis_page_shape_at(writer->model, i, true, &shape, error) || !add_rings(writer, i, shape, error)))
+        (!gis_page_shape(writer->model, i, GIS_VIEW_NOW, &shape, error) || !add_rings(writer, i, shape, error)))
         return false;
     if (writer->model->changed) end_feature(writer);
     return true;

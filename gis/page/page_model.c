@@ -41,19 +41,11 @@ static bool take_features(gis_page_model *model, gis_error *error)
     return true;
 }
 
-bool gis_page_shape(const gis_page_model *model, size_t feature, const sunder_shape **shape, gis_error *error)
+bool gis_page_shape(const gis_page_model *model, size_t feature, gis_view_shape which, const sunder_shape **shape,
+                    gis_error *error)
 {
     const gis_result_view *view = model->request->view;
-    return view->shape(view->of, feature, model->feature[feature].place, shape, error);
-}
-
-bool gis_page_shape_at(const gis_page_model *model, size_t feature, bool after, const sunder_shape **shape,
-                       gis_error *error)
-{
-    const gis_result_view *view = model->request->view;
-    if (!view->shape_at) return gis_page_shape(model, feature, shape, error);
-    *shape = view->shape_at(view->of, feature, after);
-    return true;
+    return view->shape(view->of, feature, model->feature[feature].place, which, shape, error);
 }
 
 /* ---- Barriers ---------------------------------------------------------------------------------------------------- */

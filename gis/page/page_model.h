@@ -43,10 +43,8 @@ void gis_page_model_clear(gis_page_model *model);
 
 /* The shape of a feature that has one, and the geometry of a barrier. Each result is valid until the next call of the
  * same function. */
-bool gis_page_shape(const gis_page_model *model, size_t feature, const sunder_shape **shape, gis_error *error);
-/* The same for the shape as it was read, or for that of the result. */
-bool gis_page_shape_at(const gis_page_model *model, size_t feature, bool after, const sunder_shape **shape,
-                       gis_error *error);
+bool gis_page_shape(const gis_page_model *model, size_t feature, gis_view_shape which, const sunder_shape **shape,
+                    gis_error *error);
 bool gis_page_geometry(const gis_page_model *model, const gis_view_barrier *barrier, sunder_obstacle *geometry,
                        gis_error *error);
 /* Writes the name of a feature or a barrier for the reader: "FID 12", preceded by the value of --id-field if there is

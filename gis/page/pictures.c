@@ -15,9 +15,8 @@ static const struct {
     const char *after, *before;
 } classes[] = {
     {SUNDER_FEATURE_HIDDEN, "hidden", "unmoved"},   {SUNDER_FEATURE_SKIPPED, "skipped", "skipped"},
-    {SUNDER_FEATURE_UNMOVED, "unmoved", "unmoved"},
-    {SUNDER_FEATURE_FIXED, "fixed", "fixed"},       {SUNDER_FEATURE_MOVED, "moved", "stood"},
-    {SUNDER_FEATURE_BLOCKED, "blocked", "blocked"},
+    {SUNDER_FEATURE_UNMOVED, "unmoved", "unmoved"}, {SUNDER_FEATURE_FIXED, "fixed", "fixed"},
+    {SUNDER_FEATURE_MOVED, "moved", "stood"},       {SUNDER_FEATURE_BLOCKED, "blocked", "blocked"},
 };
 enum { CLASSES = sizeof classes / sizeof *classes };
 
@@ -43,7 +42,7 @@ static bool add_feature(picture_writer *writer, size_t i, double part, gis_error
     double box[4];
     gis_page_box(feature, part, box);
     if (!feature->vertices || !gis_box_meets(box, writer->picture.window)) return true;
-    return gis_page_shape_at(writer->model, i, part > 0, &shape, error) &&
+    return gis_page_shape(writer->model, i, part > 0 ? GIS_VIEW_NOW : GIS_VIEW_READ, &shape, error) &&
            gis_picture_add_shape(&writer->picture, shape, move, &writer->scratch, writer->to, error);
 }
 
@@ -179,7 +178,7 @@ static bool add_moves(picture_writer *writer, gis_error *error)
         gis_page_box(feature, 1, box);
         gis_box_join(box, feature->box);
         if (!feature->vertices || !gis_box_meets(box, writer->picture.window) || !has_moved(writer, feature)) continue;
-        if (!gis_page_shape(model, i, &shape, error)) return false;
+        if (!gis_page_shape(model, i, GIS_VIEW_FIRST, &shape, error)) return false;
         sunder_shape_anchor(shape, from);
         const double to[2] = {from[0] + feature->move[0], from[1] + feature->move[1]};
         add_line(writer, "arrow", from, to);
@@ -197,7 +196,7 @@ static bool add_row(picture_writer *writer, const sunder_row *row, double part, 
         const double *move = writer->model->feature[i].move;
         const sunder_shape *shape;
         double anchor[2], at[2];
-        if (!gis_page_shape(writer->model, i, &shape, error)) return false;
+        if (!gis_page_shape(writer->model, i, GIS_VIEW_FIRST, &shape, error)) return false;
         sunder_shape_anchor(shape, anchor);
         gis_picture_place(&writer->picture, anchor[0] + part * move[0], anchor[1] + part * move[1], at);
         gis_text_print(writer->to, "%c%.0f %.0f", k ? 'L' : 'M', at[0], at[1]);

@@ -132,7 +132,7 @@ static bool simpler_bytes(const gis_page_model *model, size_t i, double toleranc
     const sunder_shape *shape;
     *bytes = 0;
     if (is_as_small(&model->feature[i], tolerance)) return true;
-    if (!gis_page_shape(model, i, &shape, error)) return false;
+    if (!gis_page_shape(model, i, GIS_VIEW_FIRST, &shape, error)) return false;
     for (size_t p = 0; p < sunder_shape_polygons(shape); p++)
         for (size_t r = 0; r < sunder_shape_rings(shape, p); r++) {
             size_t n;

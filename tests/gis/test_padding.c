@@ -50,6 +50,9 @@ static void results_have_none(void **state)
     ASSERT_STORED(gis_part_conflict, conflict, conflicts);
     ASSERT_STORED(gis_part_push, push, pushes);
     ASSERT_STORED(gis_part_tree, tree, trees);
+    ASSERT_STORED(sunder_hiding_component, component, components);
+    ASSERT_STORED(sunder_hiding_class, class, classes);
+    ASSERT_STORED(gis_part_hidden, hidden, hiddens);
     ASSERT_STORED(gis_part_name, name, names);
     ASSERT_STORED(gis_part_still, still, stills);
     ASSERT_STORED(gis_part_link, link, links);

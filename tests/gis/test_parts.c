@@ -1,5 +1,5 @@
 /* A layer that is separated in parts and joined again gives the result of the whole layer, to the last bit, for every
- * number of shards: moves, statuses, blocks, conflicts, pushes, sums, what is hidden and why.
+ * number of shards: moves, statuses, shapes, blocks, conflicts, pushes, sums, what is hidden and why.
  *
  * Layers are towns of slanted boxes, some of them crowded, some in rows that touch, some fixed or limited, some in
  * blocks whose members are far from each other. Some have barriers: roads through the whole town or of a few metres,
@@ -29,8 +29,10 @@ typedef struct town {
     sunder_layer_options how;
     sunder_barrier barrier[BARRIERS];
     size_t barriers;
-    bool hides;
+    gis_layer_rules rules;
+    gis_rung_lengths lengths;
     sunder_hiding_cost cost[MOST];
+    bool rigid[MOST];
 } town;
 
 static const sunder_shape *box_at(rng *r, double x, double y, double w, double h, bool slanted)
@@ -175,12 +177,23 @@ static void lay_barriers(town *t, rng *r, bool any)
     t->how.effort = 0;
 }
 
-/* Draws what it costs to hide features, some of them never. */
-static void draw_costs(town *t, rng *r, bool hides)
+/* Draws what it costs to hide features, some of them never, and whether they may become smaller, some of them
+ * never. */
+static void draw_costs(town *t, rng *r, bool hides, bool smaller)
 {
-    t->hides = hides;
-    for (size_t k = 0; k < t->n && hides; k++)
+    static double inset[] = {0.2, 0.6};
+    t->rules = (gis_layer_rules){.hide = hides, .crossed = SUNDER_CROSSED_HIDE};
+    t->lengths = (gis_rung_lengths){0};
+    for (size_t k = 0; k < t->n; k++) {
         t->cost[k] = (sunder_hiding_cost){(uint32_t)rng_int(r, 0, 3), rng_int(r, 1, 9)};
+        t->rigid[k] = rng_once_in(r, 8);
+    }
+    if (!smaller) return;
+    t->rules.trim = true;
+    t->rules.trim_keep = 0.3;
+    t->rules.inset = "0.2,0.6";
+    t->rules.symbol_size.text = "2";
+    t->lengths = (gis_rung_lengths){inset, 2, 1.5, 2};
 }
 
 static void clear_barriers(town *t)
@@ -225,7 +238,8 @@ static gis_spool *spool_of(const town *t, unsigned shards)
     assert_true(gis_spool_create(scratch_directory(), NULL, &writer, &error));
     for (size_t k = 0; k < t->n; k++) {
         gis_spool_feature f = {.index = k, .fid = (int64_t)k + 1, .demands = t->feature[k], .start = {NAN, NAN}};
-        if (t->hides) f.hiding = t->cost[k];
+        if (t->rules.hide || t->rules.trim) f.hiding = t->cost[k];
+        f.rigid = t->rigid[k];
         assert_true(gis_spool_add(writer, &f, &error));
     }
     assert_true(gis_spool_finish(writer, shards, NULL, NULL, &error));
@@ -236,7 +250,62 @@ static gis_spool *spool_of(const town *t, unsigned shards)
 
 /* ---- Comparison -------------------------------------------------------------------------------------------------- */
 
-static void demand_same_features(const town *t, const sunder_report *whole, gis_joined *j)
+/* Makes the smaller shapes for the whole layer, if there are to be any. */
+static gis_levels levels_of(const town *t, sunder_layer *layer)
+{
+    static const sunder_shape *shape[MOST];
+    static int64_t weight[MOST];
+    gis_levels levels = {0};
+    gis_error error;
+    const gis_rung_request request = {.rules = &t->rules,
+                                      .lengths = &t->lengths,
+                                      .core = t->how,
+                                      .layer = layer,
+                                      .n = t->n,
+                                      .shape = shape,
+                                      .weight = weight,
+                                      .rigid = t->rigid};
+    for (size_t k = 0; k < t->n; k++) {
+        shape[k] = t->feature[k].shape;
+        weight[k] = t->cost[k].weight;
+    }
+    if (!gis_rungs_make(&request, &levels, &error) ||
+        !gis_rungs_set(&t->rules, t->lengths.min_size, &levels, NULL, t->n, layer, "town", &error))
+        fail_msg("%s", error.message);
+    return levels;
+}
+
+/* Does the feature have the same smaller shape, if it has one? */
+static void demand_same_shape(const town *t, const sunder_report *whole, const gis_levels *levels, size_t k,
+                              const gis_part_result *one)
+{
+    const size_t level = sunder_report_status(whole, k) == SUNDER_FEATURE_HIDDEN ? 0 : sunder_report_level(whole, k);
+    const gis_part_row *row = one && one->rows ? one->row : NULL;
+    sunder_shape *shape;
+    gis_error error;
+    bool equal = false;
+    if (level == 0) {
+        assert_true(!row || (row->rung == 0 && row->now.polygons == 0));
+        return;
+    }
+    assert_non_null(row);
+    const size_t rung = gis_levels_rung(levels, k, level);
+    const sunder_shape *wanted = gis_levels_shape(levels, k, rung);
+    assert_int_equal(row->rung, rung + 1);
+    assert_int_equal(row->kind, levels->kind[rung]);
+    assert_true(row->lost == 1 - sunder_shape_area(wanted) / sunder_shape_area(t->feature[k].shape));
+    assert_true(gis_part_make_shape(one, &row->now, &shape, &error));
+    assert_int_equal(sunder_shape_polygons(wanted), sunder_shape_polygons(shape));
+    for (size_t p = 0; p < sunder_shape_polygons(wanted); p++) {
+        size_t n, m;
+        const double *a = sunder_shape_ring(wanted, p, 0, &n), *b = sunder_shape_ring(shape, p, 0, &m);
+        equal = n == m && memcmp(a, b, 2 * n * sizeof *a) == 0;
+        assert_true(equal);
+    }
+    sunder_shape_free(shape);
+}
+
+static void demand_same_features(const town *t, const sunder_report *whole, const gis_levels *levels, gis_joined *j)
 {
     size_t block = 0, rows = 0;
     bool any;
@@ -253,8 +322,11 @@ static void demand_same_features(const town *t, const sunder_report *whole, gis_
             const gis_part_result *one = &j->rows.one;
             status = one->rows ? one->row->status : gis_joined_status(j, one->still);
             if (one->rows) memcpy(got, one->row->move, sizeof got);
+            demand_same_shape(t, whole, levels, k, one);
             rows++;
             assert_true(gis_sorted_results_next(&j->rows, &any, &error));
+        } else {
+            demand_same_shape(t, whole, levels, k, NULL);
         }
         if (block < j->blocks && j->block[block].a == k) of = (int64_t)j->block[block++].b;
         if (move[0] != got[0] || move[1] != got[1] || status != sunder_report_status(whole, k) ||
@@ -394,7 +466,8 @@ static void separate_parts(gis_layout *layout, unsigned shards, bool apart)
     gis_part_result_clear(&result);
 }
 
-static unsigned compare(const town *t, const sunder_report *whole, unsigned shards, double halo, size_t *hidden)
+static unsigned compare(const town *t, const sunder_report *whole, const gis_levels *levels, unsigned shards,
+                        double halo, size_t *hidden)
 {
     gis_spool *spool = spool_of(t, shards);
     gis_part_file file[7];
@@ -408,14 +481,15 @@ static unsigned compare(const town *t, const sunder_report *whole, unsigned shar
     if (halo >= 0) layout.halo = halo;
     layout.barriers = barriers_of(t);
     layout.features = t->n;
-    layout.hides = t->hides;
+    layout.rules = &t->rules;
+    layout.lengths = &t->lengths;
     separate_parts(&layout, shards, apart);
     for (unsigned k = 0; k < files; k++) {
         const gis_part_stamp stamp = {.version = "1", .shard = k + 1, .shards = files};
         if (!gis_part_file_open(&file[k], scratch_directory(), &stamp, &error)) fail_msg("%s", error.message);
     }
     if (!gis_parts_join(&layout, file, files, scratch_directory(), &joined, &error)) fail_msg("%s", error.message);
-    demand_same_features(t, whole, &joined);
+    demand_same_features(t, whole, levels, &joined);
     demand_same_conflicts(t, whole, &joined);
     demand_same_sums(whole, &joined);
     demand_same_rows(t, whole, &joined);
@@ -433,7 +507,7 @@ static void separate_towns(size_t n, bool barriers, bool rows)
 {
     static town t;
     unsigned more = 0;
-    size_t moved = 0, neighbours = 0, hidden = 0;
+    size_t moved = 0, neighbours = 0, hidden = 0, smaller = 0;
     for (size_t number = 0; number < test_count(4); number++) {
         rng r = rng_start(test_seed(), (rows ? 8400 : barriers ? 8300 : 8200) + number);
         if (rows)
@@ -441,30 +515,37 @@ static void separate_towns(size_t n, bool barriers, bool rows)
         else
             lay_out(&t, &r, n);
         lay_barriers(&t, &r, barriers);
-        draw_costs(&t, &r, barriers && number % 2 == 0);
+        draw_costs(&t, &r, barriers && number % 2 == 0, barriers && number % 4 == 2);
         sunder_layer *layer;
         sunder_report *whole;
         sunder_error why;
         sunder_layer_summary s;
         assert_int_equal(sunder_layer_new(t.feature, t.n, &layer, &why), SUNDER_OK);
         assert_int_equal(sunder_layer_set_barriers(layer, t.barrier, t.barriers, &why), SUNDER_OK);
-        if (t.hides) assert_int_equal(sunder_layer_set_hiding(layer, t.cost, &why), SUNDER_OK);
+        gis_levels levels = levels_of(&t, layer);
+        if (t.rules.hide) assert_int_equal(sunder_layer_set_hiding(layer, t.cost, &why), SUNDER_OK);
         assert_int_equal(sunder_layer_separate(layer, &t.how, &whole, &why), SUNDER_OK);
         sunder_report_summary(whole, &s);
         moved += s.moved;
         neighbours += s.row_pairs;
-        more += compare(&t, whole, 1, -1, &hidden) + compare(&t, whole, 2, -1, &hidden);
-        more += compare(&t, whole, 7, -1, &hidden);
-        more += compare(&t, whole, 7, t.how.gap, &hidden); /* a small margin around each part */
+        if (!t.rules.hide) more += compare(&t, whole, &levels, 1, -1, &hidden);
+        if (!t.rules.trim) more += compare(&t, whole, &levels, 2, -1, &hidden);
+        more += compare(&t, whole, &levels, 7, -1, &hidden);
+        more += compare(&t, whole, &levels, 7, t.how.gap, &hidden); /* a small margin around each part */
+        sunder_hiding_summary hiding;
+        sunder_report_hiding(whole, &hiding);
+        smaller += hiding.smaller;
         sunder_report_free(whole);
         sunder_layer_free(layer);
+        gis_levels_clear(&levels);
         clear_barriers(&t);
         for (size_t k = 0; k < t.n; k++) sunder_shape_free((sunder_shape *)t.feature[k].shape);
     }
-    print_message(
-        "%zu features moved; %u parts were separated once more; %zu neighbours in rows; %zu features hidden\n", moved,
-        more, neighbours, hidden);
+    print_message("%zu features moved; %u parts were separated once more; %zu neighbours in rows; %zu features hidden, "
+                  "%zu smaller\n",
+                  moved, more, neighbours, hidden, smaller);
     assert_true(moved > 0 && more > 0 && (neighbours > 0) == rows && (hidden > 0) == barriers);
+    assert_true((smaller > 0) == barriers);
 }
 
 static void test_towns_in_parts(void **state)

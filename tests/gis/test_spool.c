@@ -95,6 +95,7 @@ static board *draw_board(size_t n)
             .start = {NAN, rng_unit(&random)},
             .area = rng_unit(&random),
             .id = rng_once_in(&random, 4) ? NULL : b->id[i],
+            .rigid = rng_once_in(&random, 3),
         };
     }
     return b;
@@ -169,6 +170,7 @@ static bool see(void *user, const gis_spool_feature *feature, gis_error *error)
     assert_int_equal(put->fid, feature->fid);
     assert_true(put->demands.max_shift == feature->demands.max_shift);
     assert_int_equal(put->demands.fixed, feature->demands.fixed);
+    assert_int_equal(put->rigid, feature->rigid);
     assert_false(feature->demands.ignored);
     assert_memory_equal(put->start, feature->start, sizeof put->start);
     assert_true(put->area == feature->area);

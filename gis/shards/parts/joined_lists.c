@@ -247,6 +247,7 @@ static void sum_row(gathering *g, const gis_part_row *row)
     sunder_layer_summary *s = &g->out->summary;
     const double *t = row->move, length = hypot(t[0], t[1]);
     s->blocked += row->status == SUNDER_FEATURE_BLOCKED;
+    g->out->hiding.on_rung[row->kind] += row->rung > 0;
     if (t[0] == 0 && t[1] == 0) return;
     s->moved += row->status == SUNDER_FEATURE_MOVED;
     s->blocked_moved += row->status == SUNDER_FEATURE_BLOCKED;

@@ -194,14 +194,55 @@ static bool set_rows(gis_part *p, gis_error *error)
 static bool set_hiding(gis_part *p, gis_error *error)
 {
     sunder_error why;
-    sunder_layer_set_crossed(p->layer, p->layout->crossed);
-    if (!p->layout->hides) return true;
+    sunder_layer_set_crossed(p->layer, p->layout->rules->crossed);
+    if (!p->layout->rules->hide) return true;
     sunder_hiding_cost *cost = malloc((p->n + 1) * sizeof *cost);
     if (!cost) return gis_no_memory(error);
     for (size_t k = 0; k < p->n; k++) cost[k] = p->item[k].feature.hiding;
     const bool done = sunder_layer_set_hiding(p->layer, cost, &why) == SUNDER_OK;
     free(cost);
     return done || gis_core_failed(error, "--hide", &why);
+}
+
+/* What the smaller shapes of features are made of: [n] each. */
+typedef struct rung_material {
+    const sunder_shape **shape;
+    int64_t *weight;
+    bool *rigid;
+} rung_material;
+
+static bool make_levels(gis_part *p, rung_material *m, gis_error *error)
+{
+    const gis_layout *l = p->layout;
+    const gis_rung_request request = {.rules = l->rules,
+                                      .lengths = l->lengths,
+                                      .core = l->how,
+                                      .layer = p->layer,
+                                      .n = p->n,
+                                      .shape = m->shape,
+                                      .weight = m->weight,
+                                      .rigid = m->rigid};
+    for (size_t k = 0; k < p->n; k++) {
+        const gis_spool_feature *f = &p->item[k].feature;
+        m->shape[k] = f->demands.shape;
+        m->weight[k] = f->hiding.weight;
+        m->rigid[k] = f->rigid;
+    }
+    return gis_rungs_make(&request, &p->levels, error) &&
+           gis_rungs_set(l->rules, l->lengths->min_size, &p->levels, NULL, p->n, p->layer, l->name, error);
+}
+
+/* Makes the smaller shapes that features may have, if that is allowed. */
+static bool set_levels(gis_part *p, gis_error *error)
+{
+    if (!gis_levels_asked(p->layout->rules)) return true;
+    rung_material m = {malloc((p->n + 1) * sizeof *m.shape), malloc((p->n + 1) * sizeof *m.weight),
+                       malloc((p->n + 1) * sizeof *m.rigid)};
+    const bool done = ((m.shape && m.weight && m.rigid) || gis_no_memory(error)) && make_levels(p, &m, error);
+    free((void *)m.shape);
+    free(m.weight);
+    free(m.rigid);
+    return done;
 }
 
 /* Tells of a feature that is in two rows, as gis_layer_run() does, and of other errors of the core. */
@@ -232,7 +273,7 @@ static bool separate_part(gis_part *p, gis_error *error)
     const bool made = sunder_layer_new(feature, p->n, &p->layer, &why) == SUNDER_OK;
     free(feature);
     if (made && (!set_sides(p, error) || !set_rows(p, error) || !gis_barriers_set(&p->barriers, p->layer, error) ||
-                 !set_hiding(p, error)))
+                 !set_hiding(p, error) || !set_levels(p, error)))
         return false;
     if (!made || sunder_layer_separate(p->layer, &options, &p->report, &why) != SUNDER_OK)
         return tell_failure(p, &why, error);
@@ -257,6 +298,7 @@ static void clear_part(gis_part *p)
     gis_barriers_list_clear(&p->barriers);
     gis_proof_lines_clear(&p->lines);
     sunder_layer_free(p->layer);
+    gis_levels_clear(&p->levels);
     sunder_report_free(p->report);
 }
 

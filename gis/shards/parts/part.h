@@ -34,10 +34,10 @@ typedef struct gis_layout {
     size_t blocks, rows;
     double memory; /* approximate bytes that a process may take; a part that takes much more gets a warning. 0: no
                      * limit */
-    bool hides;    /* features may be hidden; set by the caller, like the next one */
-    sunder_crossed crossed; /* what becomes of features that a barrier's line crosses */
-    bool by_places;         /* the proof identifies features by their places in the input, since FIDs are not unique */
-    const char *name;       /* borrowed: of the layer, for messages */
+    const gis_layer_rules *rules;    /* borrowed: which features may be hidden or become smaller; set by the caller */
+    const gis_rung_lengths *lengths; /* borrowed: of these rules */
+    bool by_places;   /* the proof identifies features by their places in the input, since FIDs are not unique */
+    const char *name; /* borrowed: of the layer, for messages */
     double *explain, *verify; /* borrowed: the seconds of these stages are added here; NULL: not measured */
 } gis_layout;
 

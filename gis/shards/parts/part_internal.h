@@ -32,6 +32,7 @@ typedef struct gis_part {
     bool *decided; /* [n] it is known which neighbours in rows the feature has; only for features that are wanted */
     gis_barriers_list barriers;
     sunder_layer *layer;
+    gis_levels levels; /* the smaller shapes of the features, if they may have any */
     sunder_report *report;
     gis_proof_lines lines; /* used if trees are kept */
     unsigned run;

@@ -47,6 +47,8 @@ static const struct list {
              LIST(still, stills, HOLES(holes_of_still)),
              LIST(link, links, NULL, 0),
              LIST(neighbour, neighbours, NULL, 0),
+             LIST(corner, corners, NULL, 0),
+             LIST(end, ends, NULL, 0),
              LIST(text, texts, NULL, 0),
              LIST(line, lines, NULL, 0)};
 
@@ -111,7 +113,8 @@ static bool copy_line(gis_part_result *to, const gis_part_result *from, gis_part
 bool gis_part_copy_row(gis_part_result *to, const gis_part_result *from, size_t row, gis_error *error)
 {
     gis_part_row new = from->row[row];
-    if (!gis_part_add_text(to, gis_part_text(from, new.id), &new.id, error) || !GIS_PART_MORE(to, row, rows, 1, error))
+    if (!gis_part_add_text(to, gis_part_text(from, new.id), &new.id, error) ||
+        !gis_part_copy_shape(to, from, &new.now, error) || !GIS_PART_MORE(to, row, rows, 1, error))
         return false;
     to->row[to->rows++] = new;
     return true;
@@ -312,7 +315,7 @@ bool gis_part_result_load(gis_part_result *to, const unsigned char *from, size_t
 
 uint64_t gis_part_result_form(void)
 {
-    uint64_t form = 5; /* version: raise it when the meaning of a member changes */
+    uint64_t form = 6; /* version: raise it when the meaning of a member changes */
     for (int k = 0; k < LISTS; k++) form = gis_checksum_of(form, &lists[k].size, sizeof lists[k].size);
     return form;
 }

@@ -4,7 +4,7 @@
 #define GIS_PART_RESULT_H
 
 #include "base/gis_error.h"
-#include "sunder_hiding.h"
+#include "layer/rungs.h"
 
 #include <stdint.h>
 
@@ -17,12 +17,22 @@ typedef struct gis_part_line {
     uint64_t file;        /* 0: the line is in the result's `line`; else in the file of the shard with this number */
 } gis_part_line;
 
+/* A shape, as the rings that it was made of: 2 * `vertices` numbers of the list `corner`, and the ends of the rings,
+ * then those of the polygons, in the list `end`. */
+typedef struct gis_part_shape {
+    size_t corner, vertices, end, rings, polygons; /* polygons = 0: there is none */
+} gis_part_shape;
+
 /* The result of one feature of a world. */
 typedef struct gis_part_row {
     size_t index;
     int64_t fid;
     size_t id; /* offset of a text */
     double move[2], from[2], weight;
+    gis_part_shape now; /* the shape that the feature has instead of its own */
+    double lost, size;  /* ... with what gis_feature_row says of it */
+    uint32_t rung;      /* ... which is this rung, from 1 on; 0: it has its own */
+    gis_rung kind;      /* of the rung */
     sunder_feature_status status;
     bool rounded;
 } gis_part_row;
@@ -117,13 +127,15 @@ typedef struct gis_part_result {
     gis_part_still *still;
     gis_part_link *link;
     gis_part_neighbours *neighbour;
+    double *corner; /* of shapes */
+    size_t *end;
     char *text;
     char *line; /* the bytes of all lines of the proof */
     size_t worlds, rows, footprints, bounds, conflicts, blockers, pushes, trees, components, classes, hiddens, names,
-        stills, links, neighbours, texts, lines;
+        stills, links, neighbours, corners, ends, texts, lines;
     struct {
         size_t world, row, footprint, bound, conflict, blocker, push, tree, component, class, hidden, name, still, link,
-            neighbour, text, line;
+            neighbour, corner, end, text, line;
     } room;
     bool unverified; /* the core did not verify the result of some part */
 } gis_part_result;
@@ -147,6 +159,14 @@ const char *gis_part_text(const gis_part_result *result, size_t at);
 bool gis_part_add_line(gis_part_result *to, const char *line, size_t bytes, gis_part_line *at, gis_error *error);
 /* The text of a line that is stored in the result itself. */
 const char *gis_part_line_of(const gis_part_result *result, const gis_part_line *line);
+
+/* Appends a shape, which must have corners that are doubles, and sets *at to its place (part_shape.c). */
+bool gis_part_add_shape(gis_part_result *to, const sunder_shape *shape, gis_part_shape *at, gis_error *error);
+/* Makes *at the place of a copy of the shape that it names in `from`. */
+bool gis_part_copy_shape(gis_part_result *to, const gis_part_result *from, gis_part_shape *at, gis_error *error);
+/* Makes the shape anew; NULL if there is none. Fails, naming it as damaged, if the rings are not valid. */
+bool gis_part_make_shape(const gis_part_result *from, const gis_part_shape *at, sunder_shape **out, gis_error *error);
+bool gis_part_shape_is_sound(const gis_part_result *of, const gis_part_shape *at);
 
 /* Each appends a copy of one item of another result, with the texts and lines that belong to it. */
 bool gis_part_copy_row(gis_part_result *to, const gis_part_result *from, size_t row, gis_error *error);

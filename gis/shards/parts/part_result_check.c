@@ -52,7 +52,8 @@ static bool are_rows(const gis_part_result *r, uint64_t places)
 {
     for (size_t k = 0; k < r->rows; k++)
         if (!is_place(r->row[k].index, places) || !is_text(r, r->row[k].id) || !is_status(r->row[k].status) ||
-            !is_flag(&r->row[k].rounded))
+            !is_flag(&r->row[k].rounded) || !gis_part_shape_is_sound(r, &r->row[k].now) ||
+            (unsigned)r->row[k].kind >= GIS_RUNGS)
             return false;
     for (size_t k = 0; k < r->stills; k++)
         if (!is_place(r->still[k].index, places) || !is_status(r->still[k].status)) return false;

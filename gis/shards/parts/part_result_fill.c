@@ -3,6 +3,7 @@
 #include "shards/parts/part_internal.h"
 
 #include "base/array.h"
+#include "base/core_error.h"
 #include "layer/barriers/barrier.h"
 #include "layer/output.h"
 
@@ -36,6 +37,24 @@ static bool add_name(gis_part *p, size_t *names, size_t thing, gis_error *error)
     return true;
 }
 
+/* Fills in the shape that feature k of the part has instead of its own, if it does. */
+static bool fill_level(gis_part *p, size_t k, gis_part_row *row, gis_error *error)
+{
+    const size_t level = sunder_report_level(p->report, k);
+    double centre[2], radius;
+    sunder_error why;
+    if (!level || row->status == SUNDER_FEATURE_HIDDEN) return true;
+    const size_t rung = gis_levels_rung(&p->levels, k, level);
+    const sunder_shape *shape = gis_levels_shape(&p->levels, k, rung);
+    if (sunder_shape_largest_disc(shape, centre, &radius, &why) != SUNDER_OK)
+        return gis_core_failed(error, "sunder_siz", &why);
+    row->rung = (uint32_t)rung + 1;
+    row->kind = p->levels.kind[rung];
+    row->lost = 1 - sunder_shape_area(shape) / sunder_shape_area(p->item[k].feature.demands.shape);
+    row->size = 2 * radius;
+    return gis_part_add_shape(p->out, shape, &row->now, error);
+}
+
 bool gis_part_fill_row(gis_part *p, size_t k, gis_error *error)
 {
     const gis_spool_feature *f = &p->item[k].feature;
@@ -47,7 +66,9 @@ bool gis_part_fill_row(gis_part *p, size_t k, gis_error *error)
                         .rounded = sunder_report_rounded(p->report, k)};
     sunder_report_move(p->report, k, &row.move[0], &row.move[1]);
     if (isnan(row.from[0])) sunder_shape_anchor(f->demands.shape, row.from);
-    if (!gis_part_add_text(p->out, f->id, &row.id, error) || !GIS_PART_MORE(p->out, row, rows, 1, error)) return false;
+    if (!fill_level(p, k, &row, error) || !gis_part_add_text(p->out, f->id, &row.id, error) ||
+        !GIS_PART_MORE(p->out, row, rows, 1, error))
+        return false;
     p->out->row[p->out->rows++] = row;
     return true;
 }

@@ -5,6 +5,7 @@
 #include "geometry/gis_box.h"
 #include "layer/output.h"
 
+#include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 
@@ -42,6 +43,16 @@ bool gis_part_knows(const gis_part *p, const double box[4]) { return is_known(p,
 
 /* ---- Worlds ---------------------------------------------------------------------------------------------------- */
 
+/* Features are cut back at barriers that are farther than they have to be by a hair (sunder_layer_trim()), so these are
+ * looked for within some more of the largest coordinate. */
+static void add_hair(const gis_part *p, double box[4])
+{
+    double most = 0;
+    if (!p->layout->rules->trim) return;
+    for (int c = 0; c < 4; c++) most = fmax(most, fabs(box[c]));
+    for (int c = 0; c < 4; c++) box[c] += c < 2 ? -most * 0x1p-40 : most * 0x1p-40;
+}
+
 static bool add_footprints(gis_part *p, const sunder_world *w, gis_part_world *to, gis_error *error)
 {
     size_t n;
@@ -49,8 +60,9 @@ static bool add_footprints(gis_part *p, const sunder_world *w, gis_part_world *t
     if (!GIS_PART_MORE(p->out, footprint, footprints, w->footprints, error)) return false;
     to->complete = true;
     for (size_t k = 0; k < w->footprints; k++) {
-        const sunder_footprint *f = &all[w->footprint + k];
-        p->out->footprint[p->out->footprints++] = *f;
+        sunder_footprint *f = &p->out->footprint[p->out->footprints++];
+        *f = all[w->footprint + k];
+        add_hair(p, f->seen);
         to->complete = to->complete && gis_part_knows(p, f->seen);
     }
     return true;

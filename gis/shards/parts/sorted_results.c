@@ -118,6 +118,20 @@ bool gis_sorted_results_next(gis_sorted_results *sorted, bool *any, gis_error *e
     return true;
 }
 
+uint64_t gis_sorted_results_place(const gis_sorted_results *sorted)
+{
+    return sorted->from - (sorted->filled - sorted->used) - sorted->head.bytes;
+}
+
+bool gis_sorted_results_read_at(gis_sorted_results *sorted, uint64_t place, gis_error *error)
+{
+    gis_sort_head head;
+    return gis_disk_file_read(&sorted->file, place, &head, sizeof head, error) &&
+           (gis_array_reserve(&sorted->record, &sorted->room, head.bytes, 1) || gis_no_memory(error)) &&
+           gis_disk_file_read(&sorted->file, place, sorted->record, head.bytes, error) &&
+           load_record(sorted, sorted->record, error);
+}
+
 void gis_sorted_results_clear(gis_sorted_results *sorted)
 {
     gis_sorter_free(sorted->sorter);

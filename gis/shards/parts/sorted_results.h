@@ -36,6 +36,10 @@ bool gis_sorted_results_sort(gis_sorted_results *sorted, gis_sorted_results_keep
 void gis_sorted_results_rewind(gis_sorted_results *sorted);
 /* Reads the next item into head and one; *any is set to false if there is none. */
 bool gis_sorted_results_next(gis_sorted_results *sorted, bool *any, gis_error *error);
+/* The place of the item that was read last by gis_sorted_results_next(); and reads the item at a place into head and
+ * one, without a change to what comes next. */
+uint64_t gis_sorted_results_place(const gis_sorted_results *sorted);
+bool gis_sorted_results_read_at(gis_sorted_results *sorted, uint64_t place, gis_error *error);
 void gis_sorted_results_clear(gis_sorted_results *sorted);
 
 #endif

@@ -24,13 +24,14 @@ bool gis_plan_status_checksum(const char *directory, uint64_t *checksum, gis_err
     return done;
 }
 
-/* Fails if the layer's feature count differs from that of its files: `status` has one byte for each feature, and the
- * spool must not have more features. */
+/* Fails if the layer's feature count differs from that of its files: `status` has the same number of bytes for each
+ * feature, and the spool must not have more features. */
 static bool holds_all(const gis_shard_run *parts, gis_error *error)
 {
     gis_disk_file file = {0};
     const bool opened = gis_disk_file_open(&file, parts->directory, "status", error);
-    const bool same = opened && file.size == parts->facts.source.features &&
+    const bool same = opened &&
+                      file.size == parts->facts.source.features * gis_layer_status_bytes(&parts->request->rules) &&
                       gis_spool_features(parts->spool) <= parts->facts.source.features;
     gis_disk_file_close(&file);
     return same || !opened

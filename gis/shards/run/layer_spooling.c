@@ -4,10 +4,12 @@
 #include "shards/run/layer_spooling.h"
 
 #include "base/array.h"
+#include "base/core_error.h"
 #include "base/message.h"
 #include "disk/file.h"
 #include "geometry/gis_box.h"
 #include "layer/layer_checksum.h"
+#include "layer/levels.h"
 #include "layer/output.h"
 #include "read/crs_units.h"
 #include "shards/run/barrier_spooling.h"
@@ -34,6 +36,7 @@ typedef struct spooling {
     double *areas, median; /* areas of the features that count, if weights depend on area */
     size_t n_areas, room;
     double shapes[4]; /* box of all shapes */
+    bool *rigid;      /* of the current batch: which shapes never change; NULL: all may */
     gis_layer_checksums sums;
 } spooling;
 
@@ -51,6 +54,13 @@ static bool weigh_batch(spooling *s, gis_error *error)
     return gis_layer_weigh_by_field(input, error);
 }
 
+/* Finds which shapes of the batch never change. */
+static bool take_rigid(spooling *s, gis_error *error)
+{
+    free(s->rigid);
+    return gis_levels_rigid(&s->input, &s->rigid, error);
+}
+
 /* The stages of a batch up to the demands that do not depend on other batches. */
 static bool take_demands(spooling *s, gis_error *error)
 {
@@ -60,7 +70,7 @@ static bool take_demands(spooling *s, gis_error *error)
     gis_layer_default_demands(input);
     gis_layer_box(input, box);
     gis_box_join(s->shapes, box);
-    if (!gis_layer_marks(input, error) || !gis_layer_number_blocks(input, &s->keys, error) ||
+    if (!gis_layer_marks(input, error) || !take_rigid(s, error) || !gis_layer_number_blocks(input, &s->keys, error) ||
         !gis_layer_number_rows(input, &s->rows, error) || !weigh_batch(s, error) || !gis_layer_limits(input, error))
         return false;
     gis_layer_box(input, box);
@@ -109,11 +119,11 @@ static bool add_feature(spooling *s, size_t i, char **copy, gis_error *error)
                                  .demands = input->feature[i],
                                  .start = {NAN, NAN},
                                  .area = by_area(s) ? sunder_shape_area(input->shape[i]) : 0,
-                                 .row = input->row ? input->row[i] + 1 : 0};
-    if (input->request->rules.hide && !aside) {
-        if (!gis_layer_check_class(input, i, error)) return false;
-        feature.hiding = gis_layer_hiding_cost(input, i);
-    }
+                                 .row = input->row ? input->row[i] + 1 : 0,
+                                 .rigid = s->rigid && s->rigid[i]};
+    const gis_layer_rules *rules = &input->request->rules;
+    if (rules->hide && !aside && !gis_layer_check_class(input, i, error)) return false;
+    if ((rules->hide || gis_levels_asked(rules)) && !aside) feature.hiding = gis_layer_hiding_cost(input, i);
     feature.demands.shape = input->shape[i];
     s->facts->aside += aside;
     return to && (!input->points || gis_arrow_start(input, i, feature.start, error)) &&
@@ -142,16 +152,31 @@ static void note_feature(gis_layer_facts *facts, const gis_layer_input *input, s
     if (!demands->ignored && !demands->fixed) facts->longest_limit = fmax(facts->longest_limit, demands->max_shift);
 }
 
+size_t gis_layer_status_bytes(const gis_layer_rules *rules)
+{
+    return 1 + (gis_levels_asked(rules) ? sizeof(double) : 0);
+}
+
+/* Writes what the file `status` has of feature i. */
+static bool write_status(spooling *s, size_t i, gis_error *error)
+{
+    unsigned char status;
+    double centre[2], radius;
+    sunder_error why;
+    note_feature(s->facts, &s->input, i, &status);
+    if (!gis_disk_file_write(&s->status, &status, sizeof status, error)) return false;
+    if (!gis_levels_asked(&s->input.request->rules)) return true;
+    if (sunder_shape_largest_disc(s->input.shape[i], centre, &radius, &why) != SUNDER_OK)
+        return gis_core_failed(error, "sunder_siz", &why);
+    return gis_disk_file_write(&s->status, &(double){2 * radius}, sizeof(double), error);
+}
+
 static bool add_batch(spooling *s, gis_error *error)
 {
     char *copy = NULL;
     bool done = true;
-    for (size_t i = 0; done && i < s->input.n; i++) {
-        unsigned char status;
-        note_feature(s->facts, &s->input, i, &status);
-        done = gis_disk_file_write(&s->status, &status, sizeof status, error) &&
-               (!is_spooled(s, i) || add_feature(s, i, &copy, error)) && gis_go_on(error);
-    }
+    for (size_t i = 0; done && i < s->input.n; i++)
+        done = write_status(s, i, error) && (!is_spooled(s, i) || add_feature(s, i, &copy, error)) && gis_go_on(error);
     free(copy);
     return done;
 }
@@ -218,8 +243,9 @@ static bool read_batches(spooling *s, const gis_layer_input_request *request, co
             return false;
     s->facts->checksum = gis_layer_checksums_end(&s->sums);
     if (!gis_source_find_facts(input->source, &s->facts->source, error)) return false;
-    *again = (request->rules.ignore_where || request->rules.fixed_where) && !s->facts->source.fids_unique &&
-             !request->source.fids_mean_nothing && !gis_source_is_result(input->source);
+    *again = (request->rules.ignore_where || request->rules.fixed_where || request->rules.rigid_where) &&
+             !s->facts->source.fids_unique && !request->source.fids_mean_nothing &&
+             !gis_source_is_result(input->source);
     return true;
 }
 
@@ -283,6 +309,7 @@ static void clear_spooling(spooling *s)
     gis_block_keys_clear(&s->keys);
     gis_block_keys_clear(&s->rows);
     free(s->areas);
+    free(s->rigid);
     gis_layer_input_clear(&s->input);
 }
 

@@ -33,12 +33,16 @@ typedef struct gis_layer_facts {
  * only if there are any. */
 #define GIS_SPOOL_ASIDE "aside"
 
+/* The bytes of each feature in the file `status`: its status; and if features may have other shapes, the diameter of
+ * the largest disc in its shape as read, a double. */
+size_t gis_layer_status_bytes(const gis_layer_rules *rules);
+
 /* Reads the layer, with all warnings, into the files `features` and `cells` of an existing directory, divided into
- * `shards` shards. The file `status` gets one byte for each feature, in input order: the sunder_feature_status that the
- * feature would have alone, without a move (a fixed member fixes its whole block, which is not known here). Ids in the
- * spool are texts: integers, reals with 17 digits, or strings. Barriers go into `barriers`
- * (shards/spool/barrier_spool.h). Memory is needed for a batch, a run of the spool's sorter, the distinct values of
- * --block-field and, with --weight, 8 bytes per feature. */
+ * `shards` shards. The file `status` gets gis_layer_status_bytes() for each feature, in input order, first the
+ * sunder_feature_status that the feature would have alone, as one byte, without a move (a fixed member fixes its whole
+ * block, which is not known here). Ids in the spool are texts: integers, reals with 17 digits, or strings. Barriers go
+ * into `barriers` (shards/spool/barrier_spool.h). Memory is needed for a batch, a run of the spool's sorter, the
+ * distinct values of --block-field and, with --weight, 8 bytes per feature. */
 bool gis_layer_spool(const gis_layer_input_request *request, unsigned shards, const char *directory,
                      gis_layer_facts *facts, gis_error *error);
 void gis_layer_facts_clear(gis_layer_facts *facts);

@@ -24,8 +24,8 @@ typedef struct passing {
     gis_feature_visit *visit; /* NULL: none */
     void *user;
     gis_disk_file status;
-    unsigned char *alone; /* of the current batch: the status that each feature has alone */
-    size_t room;
+    unsigned char *alone; /* of the current batch: what the file `status` has of each feature, in so many bytes: */
+    size_t room, bytes;
     bool any; /* joined.rows has a current item */
     size_t block;
     gis_far_moves far_moves;
@@ -43,29 +43,64 @@ static gis_value block_value(const gis_shard_run *p, bool has_null, const gis_pa
                               p->block_fid[gis_joined_block(j, own->b) - j->block]);
 }
 
+/* What feature i of the batch is if it is alone. */
+static gis_feature_row row_alone(const passing *at, size_t i)
+{
+    const unsigned char *alone = at->alone + i * at->bytes;
+    gis_feature_row row = {.status = (sunder_feature_status)*alone};
+    if (at->bytes > 1) memcpy(&row.size, alone + 1, sizeof row.size);
+    return row;
+}
+
+/* Fills in the result of feature i of the batch. *shape: its shape, if it is another one; the caller frees it. */
+static bool fill_row(const passing *at, size_t i, const gis_part_result *one, gis_feature_row *to, sunder_shape **shape,
+                     gis_error *error)
+{
+    const gis_part_row *row = one->row;
+    to->dx = row->move[0];
+    to->dy = row->move[1];
+    to->status = row->status;
+    gis_far_moves_warn(&at->far_moves, at->input, i, row->move);
+    if (row->now.polygons == 0) return true;
+    if (!gis_part_make_shape(one, &row->now, shape, error)) return false;
+    to->other = *shape;
+    to->multi = wkbFlatten(OGR_G_GetGeometryType(gis_source_geometry(at->input->source, i))) == wkbMultiPolygon;
+    to->rung = row->rung;
+    to->lost = row->lost;
+    to->size = row->size;
+    return true;
+}
+
+/* Visits a feature that is in this block, if it is in one. */
+static bool visit_feature(const passing *at, size_t i, const gis_part_link *own, gis_feature_row *row, gis_error *error)
+{
+    const gis_source *source = at->input->source;
+    if (!at->visit) return true;
+    row->block = block_value(at->parts, at->has_null, own, gis_source_first(source) + i, gis_source_fid(source, i));
+    return at->visit(at->user, i, row, error);
+}
+
 static bool pass_feature(passing *at, const gis_source *source, size_t i, gis_error *error)
 {
     gis_shard_run *p = at->parts;
     const gis_joined *j = &p->joined;
     const size_t feature = gis_source_first(source) + i;
-    gis_feature_row row = {.status = (sunder_feature_status)at->alone[i]};
+    gis_feature_row row = row_alone(at, i);
     gis_sorted_results *rows = &p->joined.rows;
+    sunder_shape *shape = NULL;
+    bool done = true;
     if (at->any && rows->head.first == feature) {
-        if (rows->one.rows) {
-            row.dx = rows->one.row->move[0];
-            row.dy = rows->one.row->move[1];
-            row.status = rows->one.row->status;
-            gis_far_moves_warn(&at->far_moves, at->input, i, rows->one.row->move);
-        } else {
+        if (rows->one.rows)
+            done = fill_row(at, i, &rows->one, &row, &shape, error);
+        else
             row.status = gis_joined_status(j, rows->one.still);
-        }
-        if (!gis_sorted_results_next(rows, &at->any, error)) return false;
+        done = done && gis_sorted_results_next(rows, &at->any, error);
     }
     const gis_part_link *own = at->block < j->blocks && j->block[at->block].a == feature ? &j->block[at->block] : NULL;
     if (own) p->block_fid[at->block++] = gis_source_fid(source, i);
-    if (!at->visit) return true;
-    row.block = block_value(p, at->has_null, own, feature, gis_source_fid(source, i));
-    return at->visit(at->user, i, &row, error);
+    done = done && visit_feature(at, i, own, &row, error);
+    sunder_shape_free(shape);
+    return done;
 }
 
 /* Fails because the source differs from what was read the first time: the results do not fit its features any more. */
@@ -83,8 +118,8 @@ static bool begin_batch(passing *at, const gis_layer_input *input, gis_layer_che
     const size_t first = gis_source_first(source), n = gis_source_count(source);
     if (first + n > at->parts->facts.source.features) return input_changed(source, error);
     if (!gis_layer_checksums_add(sums, input, error)) return false;
-    if (!gis_array_reserve(&at->alone, &at->room, n, sizeof *at->alone)) return gis_no_memory(error);
-    return gis_disk_file_read(&at->status, first, at->alone, n, error);
+    if (!gis_array_reserve(&at->alone, &at->room, n, at->bytes)) return gis_no_memory(error);
+    return gis_disk_file_read(&at->status, first * at->bytes, at->alone, n * at->bytes, error);
 }
 
 static bool add_box(void *user, const gis_spool_feature *feature, const double box[4], size_t vertices,
@@ -115,7 +150,12 @@ static bool visit_features(const gis_result *r, bool has_null, gis_feature_visit
     const gis_layer_input *input = r->input;
     gis_source *source = input->source;
     gis_layer_checksums sums = {0};
-    passing at = {.parts = p, .input = input, .has_null = has_null, .visit = visit, .user = user};
+    passing at = {.parts = p,
+                  .input = input,
+                  .has_null = has_null,
+                  .visit = visit,
+                  .user = user,
+                  .bytes = gis_layer_status_bytes(&p->request->rules)};
     bool any = true;
     p->block_fid = malloc((p->joined.blocks + 1) * sizeof *p->block_fid);
     if (!p->block_fid) return gis_no_memory(error);

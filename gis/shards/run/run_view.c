@@ -10,6 +10,12 @@
 
 enum { STATUS_BUFFER = 1 << 16 };
 
+/* The place of the row of a feature that has another shape in the result. */
+typedef struct changed_row {
+    size_t feature;
+    uint64_t place;
+} changed_row;
+
 typedef struct spool_view {
     gis_shard_run *parts;
     gis_spool *aside; /* the spool of features that conflict with nothing; NULL: there is none */
@@ -19,6 +25,8 @@ typedef struct spool_view {
     size_t blockers, blocker_room;
     size_t *thing; /* the things of all hidden features, concatenated */
     size_t things, thing_room;
+    changed_row *changed; /* by feature */
+    size_t changes, change_room;
     uint64_t *barrier_place; /* [barriers] */
     sunder_shape *lent, *lent_barrier;
     sunder_obstacle lines; /* of the barrier that was lent last */
@@ -76,18 +84,30 @@ static bool take_statuses(const spool_view *s, gis_view_feature *feature, size_t
 {
     unsigned char buffer[STATUS_BUFFER];
     gis_disk_file file = {0};
+    const size_t bytes = gis_layer_status_bytes(&s->parts->request->rules), at_once = sizeof buffer / bytes;
     bool done = gis_disk_file_open(&file, s->parts->directory, "status", error);
-    for (size_t k = 0; k < n && done; k += sizeof buffer) {
-        const size_t more = n - k < sizeof buffer ? n - k : sizeof buffer;
-        done = gis_disk_file_read(&file, k, buffer, more, error);
-        for (size_t i = 0; i < more && done; i++) feature[k + i].status = buffer[i];
+    for (size_t k = 0; k < n && done; k += at_once) {
+        const size_t more = n - k < at_once ? n - k : at_once;
+        done = gis_disk_file_read(&file, k * bytes, buffer, more * bytes, error);
+        for (size_t i = 0; i < more && done; i++) feature[k + i].status = buffer[i * bytes];
     }
     gis_disk_file_close(&file);
     return done;
 }
 
-/* Sets moves and status of the features that differ from features alone. */
-static bool take_rows(const spool_view *s, gis_view_feature *feature, gis_error *error)
+/* Notes that the feature of the current row has another shape. */
+static bool note_change(spool_view *s, gis_view_feature *feature, gis_error *error)
+{
+    const gis_sorted_results *rows = &s->parts->joined.rows;
+    feature->changed = true;
+    if (!gis_array_reserve(&s->changed, &s->change_room, s->changes + 1, sizeof *s->changed))
+        return gis_no_memory(error);
+    s->changed[s->changes++] = (changed_row){(size_t)rows->head.first, gis_sorted_results_place(rows)};
+    return true;
+}
+
+/* Sets moves and status of the features that differ from features alone, and lists those with another shape. */
+static bool take_rows(spool_view *s, gis_view_feature *feature, gis_error *error)
 {
     gis_joined *joined = &s->parts->joined;
     gis_sorted_results *rows = &joined->rows;
@@ -99,6 +119,7 @@ static bool take_rows(const spool_view *s, gis_view_feature *feature, gis_error 
         if (rows->one.rows) {
             memcpy(to->move, rows->one.row->move, sizeof to->move);
             to->status = (uint8_t)rows->one.row->status;
+            if (rows->one.row->now.polygons && !note_change(s, to, error)) return false;
         } else {
             to->status = (uint8_t)gis_joined_status(joined, rows->one.still);
         }
@@ -108,7 +129,7 @@ static bool take_rows(const spool_view *s, gis_view_feature *feature, gis_error 
 
 static bool fill_features(void *of, gis_view_feature *feature, gis_error *error)
 {
-    const spool_view *s = of;
+    spool_view *s = of;
     filling f = {.feature = feature, .n = s->parts->facts.source.features};
     if (!visit_all(s->parts->spool, take_feature, &f, error)) return false;
     f.aside = true;
@@ -228,11 +249,33 @@ static bool lend_shape(void *user, const gis_spool_feature *feature, gis_error *
     return true;
 }
 
-static bool lend_feature_shape(void *of, size_t feature, uint64_t place, const sunder_shape **out, gis_error *error)
+static int by_feature(const void *a, const void *b)
+{
+    const changed_row *p = a, *q = b;
+    return (p->feature > q->feature) - (p->feature < q->feature);
+}
+
+/* Lends the shape that the feature has instead of its own, if it does; else *lent becomes false. */
+static bool lend_other_shape(spool_view *s, size_t feature, bool *lent, gis_error *error)
+{
+    gis_sorted_results *rows = &s->parts->joined.rows;
+    const changed_row key = {feature, 0};
+    const changed_row *row = s->changes ? bsearch(&key, s->changed, s->changes, sizeof key, by_feature) : NULL;
+    *lent = row != NULL;
+    if (!row) return true;
+    sunder_shape_free(s->lent);
+    s->lent = NULL;
+    return gis_sorted_results_read_at(rows, row->place, error) &&
+           gis_part_make_shape(&rows->one, &rows->one.row->now, &s->lent, error);
+}
+
+static bool lend_feature_shape(void *of, size_t feature, uint64_t place, gis_view_shape which, const sunder_shape **out,
+                               gis_error *error)
 {
     spool_view *s = of;
-    (void)feature;
-    if (!gis_spool_read_one(spool_of(s, place), place >> 1, lend_shape, s, error)) return false;
+    bool lent = false;
+    if (which == GIS_VIEW_NOW && !lend_other_shape(s, feature, &lent, error)) return false;
+    if (!lent && !gis_spool_read_one(spool_of(s, place), place >> 1, lend_shape, s, error)) return false;
     *out = s->lent;
     return true;
 }
@@ -310,6 +353,7 @@ static void close_view(void *of)
     free(s->conflict);
     free(s->thing);
     free(s->blocker);
+    free(s->changed);
     free(s->barrier_place);
     free(s);
 }
@@ -328,7 +372,6 @@ bool gis_shard_run_view(const gis_result *result, gis_result_view *out, gis_erro
                              list_hidden,
                              list_rows,
                              lend_feature_shape,
-                             NULL, /* shapes do not change */
                              lend_barrier_geometry,
                              feature_name,
                              barrier_name,

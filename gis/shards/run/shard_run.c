@@ -101,8 +101,8 @@ static void choose_options(gis_shard_run *p)
                                    .tolerance = p->facts.tolerance,
                                    .barrier_reach = p->facts.barrier_reach};
     p->layout.how = gis_layer_core_options(&input);
-    p->layout.hides = p->request->rules.hide;
-    p->layout.crossed = p->request->rules.crossed;
+    p->layout.rules = &p->request->rules;
+    p->layout.lengths = &p->lengths;
 }
 
 /* If rows of houses are wanted, the distance up to which features around a part are read is larger by this number of
@@ -114,6 +114,7 @@ static bool open_spool(gis_shard_run *p, double memory, gis_error *error)
 {
     const bool numbered = p->request->rules.block_field || p->request->rules.rows_field;
     const bool done =
+        gis_rung_lengths_read(&p->request->rules, &p->facts.units, &p->lengths, error) &&
         gis_spool_open(p->directory, &p->spool, error) &&
         (gis_spool_parts(p->spool) == parts_of(p->shards) ||
          gis_fail(error, "%s: its cells are assigned to other shards; make the plan anew", p->directory)) &&
@@ -357,6 +358,7 @@ void gis_shard_run_clear(gis_shard_run *parts)
     gis_spool_close(parts->spool);
     gis_barriers_close(&parts->barriers);
     gis_layer_facts_clear(&parts->facts);
+    gis_rung_lengths_clear(&parts->lengths);
     free(parts->block_fid);
     if (parts->scratch) {
         gis_remove_tree(parts->scratch);

@@ -22,6 +22,7 @@ typedef struct gis_shard_run {
     int scratch_lock; /* its lock, if scratch is set: see disk/temporary.h */
     gis_leftover *leftover;
     gis_layer_facts facts;
+    gis_rung_lengths lengths; /* of the rules for smaller shapes */
     gis_spool *spool;
     gis_spooled_barriers barriers;
     unsigned shards;  /* number of shards; the spool has a multiple of that number of parts */

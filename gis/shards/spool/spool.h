@@ -28,7 +28,8 @@ typedef struct gis_spool_feature {
     const char *id;            /* value of --id-field as text; NULL: null */
     sunder_obstacle lines;     /* of a barrier (shards/spool/barrier_spool.h), borrowed; its shape member is not used */
     int64_t row;               /* number of its row of --rows FIELD, from 1 on; 0: none */
-    sunder_hiding_cost hiding; /* what it costs to hide it; weight 0: nothing is hidden */
+    sunder_hiding_cost hiding; /* what it costs to hide it; weight 0: nothing is hidden or smaller */
+    bool rigid;                /* its shape never changes */
     double reach;              /* its box is enlarged by this on all sides; 0 except for a barrier */
     uint64_t place;            /* offset of its record in the spool that it was read from */
 } gis_spool_feature;

@@ -27,7 +27,8 @@ enum {
     ID = 1 << 8,
     ROW = 1 << 9,
     HIDING = 1 << 10,
-    ALL = (1 << 11) - 1
+    RIGID = 1 << 11,
+    ALL = (1 << 12) - 1
 };
 
 /* Number of lines and of their points, for a record with LINES. */
@@ -45,7 +46,8 @@ static const size_t size_of[] = {0,
                                  sizeof(counts),
                                  sizeof(uint64_t),
                                  sizeof(int64_t),
-                                 2 * sizeof(int64_t)};
+                                 2 * sizeof(int64_t),
+                                 0};
 
 /* The offset of the data of the member `flag`; for ALL + 1, the end of all optional members. */
 static size_t place_of(const gis_spool_head *head, uint32_t flag)
@@ -158,7 +160,7 @@ static uint32_t flags_of(const gis_spool_feature *feature, const content *c, boo
     return (demands->fixed ? FIXED : 0) | (repaired ? REPAIRED : 0) | (demands->block != -1 ? BLOCK : 0) |
            (feature->area != 0 ? AREA : 0) | (started ? START : 0) | (feature->reach != 0 ? REACH : 0) |
            (other_box ? BOX : 0) | (c->of_lines.lines ? LINES : 0) | (feature->id ? ID : 0) | (feature->row ? ROW : 0) |
-           (feature->hiding.weight ? HIDING : 0);
+           (feature->hiding.weight ? HIDING : 0) | (feature->rigid ? RIGID : 0);
 }
 
 bool gis_spool_record_make(gis_spool_room *room, const gis_spool_feature *feature, gis_error *error)
@@ -247,7 +249,8 @@ bool gis_spool_record_feature(unsigned char *record, size_t left, gis_spool_feat
         .fid = head.fid,
         .demands = {.weight = head.weight, .max_shift = head.max_shift, .block = -1, .fixed = (head.has & FIXED) != 0},
         .start = {NAN, NAN},
-        .id = id};
+        .id = id,
+        .rigid = (head.has & RIGID) != 0};
     get_member(record, &head, BLOCK, &feature->demands.block, sizeof feature->demands.block);
     get_member(record, &head, AREA, &feature->area, sizeof feature->area);
     get_member(record, &head, START, feature->start, sizeof feature->start);
