@@ -161,6 +161,25 @@ SUNDER_EXPERIMENTAL sunder_status sunder_layer_set_side_anchors(sunder_layer *la
  * the number of one of these features. */
 SUNDER_EXPERIMENTAL sunder_status sunder_layer_set_rows(sunder_layer *layer, const int64_t *row, sunder_error *err);
 
+/* Gaps of pairs by the classes of the two, such as houses, symbols and roads. Tables are symmetric. */
+typedef struct sunder_gaps {
+    size_t classes;          /* 1 to 1024 */
+    const double *gap;       /* [classes * classes] finite, >= 0 */
+    const double *full_gap;  /* [classes * classes] finite, not less than the gap; NULL: as the gap */
+    const uint32_t *feature; /* [features] the class of each, less than `classes` */
+    const uint32_t *barrier; /* [barriers] likewise */
+} sunder_gaps;
+
+/* Gives the layer gaps by classes. A pair keeps the gap of its two classes, or options.gap if that is less; a barrier
+ * that has a gap of its own keeps that. With options.full_gap > 0 a pair keeps the full gap of its classes, if it pays,
+ * or options.full_gap if that is less. The tolerance, kinks and rows are measured by the gaps of the options, so these
+ * should be the greatest ones of the tables. need_gap of a conflict is a value of options.gap.
+ * gaps    Copied. NULL: all pairs have the gap of the options. Barriers have to be set before: setting them removes the
+ *         gaps.
+ * Fails   SUNDER_EARG for a number that is out of its range or a table that is not symmetric, SUNDER_ENOMEM */
+SUNDER_EXPERIMENTAL sunder_status sunder_layer_set_gaps(sunder_layer *layer, const sunder_gaps *gaps,
+                                                        sunder_error *err);
+
 /* Gives features preferred places: the cost of a feature is weight * |t - p|^2, with its move t and its preferred move
  * p, and springs of rows cost nothing if both neighbours make their preferred moves. All else is relative to where the
  * features stand in the layer: limits, sides, jumps, what may not get worse, and the moves that are reported. A block

@@ -381,7 +381,7 @@ static sunder_status begin_comparison(comparison *c, const sunder_layer_options 
     if (c->before->n != c->after->n)
         return sunder_i_fail(err, SUNDER_EARG, "the layers have %zu and %zu features", c->before->n, c->after->n);
     sunder_status status = sunder_i_rules_of(options, &rules, err);
-    if (!status) status = sunder_i_barriers_make(c->before, rules.gap, rules.full_gap, &c->barriers, err);
+    if (!status) status = sunder_i_barriers_make(c->before, &rules, &c->barriers, err);
     if (!status) status = find_levels(c, err);
     if (!status) status = sunder_i_order_layer(&c->lowered, &c->barriers, true, &c->layer, err);
     if (!status) status = sunder_i_model_init(&c->layer, &c->barriers, &rules, &c->model, err);

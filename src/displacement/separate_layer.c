@@ -47,7 +47,7 @@ static sunder_status read_layer(sunder_i_solver *s, const sunder_layer *layer, c
     sunder_i_rules rules;
     sunder_status status = sunder_i_rules_of(options, &rules, err);
     if (what_for != TO_SEPARATE) rules.trace = NULL;
-    if (!status) status = sunder_i_barriers_make(layer, rules.gap, rules.full_gap, &s->barriers, err);
+    if (!status) status = sunder_i_barriers_make(layer, &rules, &s->barriers, err);
     if (!status) status = sunder_i_order_layer(layer, &s->barriers, what_for == TO_CHECK, &s->layer, err);
     if (!status) status = sunder_i_model_init(&s->layer, &s->barriers, &rules, &s->model, err);
     if (!status) status = sunder_i_placement_init(&s->model, &s->placement, err);

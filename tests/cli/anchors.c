@@ -101,7 +101,7 @@ static sunder_status find_side_anchor(const sunder_shape *shape, const barriers 
     sunder_status status = sunder_layer_new(&feature, 1, &layer, err);
     if (!status) status = sunder_layer_set_barriers(layer, b->item, b->n, err);
     if (!status) status = sunder_i_rules_of(&options, &rules, err);
-    if (!status) status = sunder_i_barriers_make(layer, 0, 0, &parts, err);
+    if (!status) status = sunder_i_barriers_make(layer, &(sunder_i_rules){0}, &parts, err);
     if (!status) status = sunder_i_order_layer(layer, &parts, true, &work, err);
     if (!status) status = sunder_i_model_init(&work, &parts, &rules, &model, err);
     if (!status) status = sunder_i_model_join(&model, &none, err);

@@ -210,6 +210,20 @@ static void test_preferred_with_rules(void **state)
     ask(60, 1, 4, HAMLET_PREFERRED | HAMLET_SIDES | HAMLET_BARRIERS_TOO | HAMLET_NO_JUMPS, 7);
 }
 
+/* ---- Gaps by classes */
+
+static void test_classes(void **state)
+{
+    (void)state;
+    ask(60, 2, 4, HAMLET_CLASSED | HAMLET_BARRIERS_TOO, 8);
+}
+
+static void test_classes_with_rules(void **state)
+{
+    (void)state;
+    ask(60, 1, 4, HAMLET_CLASSED | HAMLET_PREFERRED | HAMLET_SIDES | HAMLET_BARRIERS_TOO | HAMLET_NO_JUMPS, 9);
+}
+
 /* ---- The oracle itself */
 
 static double known(const double *p, size_t np, const double *q, size_t nq, double gap, double limit_p)
@@ -290,6 +304,8 @@ int main(void)
         cmocka_unit_test(test_all_rules),
         cmocka_unit_test(test_preferred),
         cmocka_unit_test(test_preferred_with_rules),
+        cmocka_unit_test(test_classes),
+        cmocka_unit_test(test_classes_with_rules),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

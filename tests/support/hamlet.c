@@ -135,6 +135,34 @@ static void choose_preferred(rng *r, hamlet *t, double unit)
     }
 }
 
+/* Gaps on a grid, of which some are equal, and some 0. */
+static void choose_classes(rng *r, hamlet *t, double unit)
+{
+    t->classes = true;
+    if (t->gap == 0) t->gap = unit;
+    for (size_t i = 0; i < HAMLET_CLASSES; i++)
+        for (size_t j = 0; j <= i; j++)
+            t->class_gap[HAMLET_CLASSES * i + j] = t->class_gap[HAMLET_CLASSES * j + i] =
+                t->gap * (double)rng_int(r, 0, 4) / 4;
+    for (size_t k = 0; k < t->n; k++) t->house[k].of = (uint32_t)rng_int(r, 0, HAMLET_CLASSES - 1);
+    for (size_t k = 0; k < t->barriers; k++) t->barrier[k].of = (uint32_t)rng_int(r, 0, HAMLET_CLASSES - 1);
+}
+
+static double gap_of(const hamlet *t, uint32_t a, uint32_t b)
+{
+    return t->classes ? t->class_gap[HAMLET_CLASSES * a + b] : t->gap;
+}
+
+static void found_barriers(rng *r, hamlet *t, double x, double y, double unit, int kinds)
+{
+    t->barriers = (size_t)rng_int(r, 1, HAMLET_BARRIERS);
+    for (size_t k = 0; k < t->barriers; k++) {
+        hamlet_barrier *b = &t->barrier[k];
+        found_barrier(r, b, x, y, unit);
+        b->side = kinds & HAMLET_SIDES && !may_cut(t, b);
+    }
+}
+
 void hamlet_found(rng *r, hamlet *t, size_t n, int kinds)
 {
     const double unit = rng_once_in(r, 2) ? 1 : 0.125 * (double)rng_int(r, 1, 12);
@@ -152,13 +180,8 @@ void hamlet_found(rng *r, hamlet *t, size_t n, int kinds)
     }
     if (n > 2 && rng_once_in(r, 4)) t->house[0].block = t->house[n - 1].block = 7;
     if (kinds & HAMLET_PREFERRED) choose_preferred(r, t, unit);
-    if (!(kinds & (HAMLET_BARRIERS_TOO | HAMLET_SIDES))) return;
-    t->barriers = (size_t)rng_int(r, 1, HAMLET_BARRIERS);
-    for (size_t k = 0; k < t->barriers; k++) {
-        hamlet_barrier *b = &t->barrier[k];
-        found_barrier(r, b, x, y, unit);
-        b->side = kinds & HAMLET_SIDES && !may_cut(t, b);
-    }
+    if (kinds & (HAMLET_BARRIERS_TOO | HAMLET_SIDES)) found_barriers(r, t, x, y, unit, kinds);
+    if (kinds & HAMLET_CLASSED) choose_classes(r, t, unit);
 }
 
 /* ---- Conversion to layers ---- */
@@ -172,6 +195,15 @@ static sunder_shape *shape_of(const double *xy, const size_t *ring_end, size_t r
         abort();
     }
     return shape;
+}
+
+static sunder_status set_gaps(const hamlet *t, sunder_layer *layer, sunder_error *err)
+{
+    uint32_t of[HAMLET_HOUSES], of_barrier[HAMLET_BARRIERS];
+    for (size_t k = 0; k < t->n; k++) of[k] = t->house[k].of;
+    for (size_t k = 0; k < t->barriers; k++) of_barrier[k] = t->barrier[k].of;
+    const sunder_gaps gaps = {.classes = HAMLET_CLASSES, .gap = t->class_gap, .feature = of, .barrier = of_barrier};
+    return sunder_layer_set_gaps(layer, t->classes ? &gaps : NULL, err);
 }
 
 sunder_report *hamlet_separate(const hamlet *t, double effort)
@@ -209,7 +241,7 @@ sunder_report *hamlet_separate(const hamlet *t, double effort)
         barrier[k].geometry.lines = 1;
     }
     if (sunder_layer_new(feature, t->n, &layer, &err) || sunder_layer_set_barriers(layer, barrier, t->barriers, &err) ||
-        sunder_layer_set_preferred(layer, t->preferred ? preferred : NULL, &err) ||
+        sunder_layer_set_preferred(layer, t->preferred ? preferred : NULL, &err) || set_gaps(t, layer, &err) ||
         sunder_layer_separate(layer, &options, &report, &err)) {
         fprintf(stderr, "hamlet: %s\n", err.message);
         abort();
@@ -418,17 +450,18 @@ static void keep_listed_apart(posing *p, size_t a, size_t b, const part_list *g,
 static void keep_houses_apart(posing *p, size_t a, size_t b, const sunder_conflict *listed, bool kept)
 {
     const part_list g = parts_of_house(&p->t->house[a]), h = parts_of_house(&p->t->house[b]);
+    const double gap = gap_of(p->t, p->t->house[a].of, p->t->house[b].of);
     if (listed)
-        keep_listed_apart(p, p->body_of[a], p->body_of[b], &g, &h, p->t->gap, listed, kept);
+        keep_listed_apart(p, p->body_of[a], p->body_of[b], &g, &h, gap, listed, kept);
     else
-        keep_parts_apart(p->m, p->body_of[a], p->body_of[b], &g, &h, p->t->gap);
+        keep_parts_apart(p->m, p->body_of[a], p->body_of[b], &g, &h, gap);
 }
 
 static void keep_off_barrier(posing *p, size_t a, size_t k, const sunder_conflict *listed, bool kept)
 {
     const hamlet_barrier *b = &p->t->barrier[k];
     const part_list g = parts_of_house(&p->t->house[a]), h = parts_of_barrier(b);
-    const double owed = b->width / 2 + (b->gap < 0 ? p->t->gap : b->gap);
+    const double owed = b->width / 2 + (b->gap < 0 ? gap_of(p->t, p->t->house[a].of, b->of) : b->gap);
     if (listed)
         keep_listed_apart(p, p->body_of[a], p->barriers, &g, &h, owed, listed, kept);
     else

@@ -11,7 +11,14 @@
 
 #include <stdint.h>
 
-enum { HAMLET_HOUSES = 5, HAMLET_BARRIERS = 2, HOUSE_PARTS = 4, HOUSE_CORNERS = 16, BARRIER_POINTS = 4 };
+enum {
+    HAMLET_HOUSES = 5,
+    HAMLET_BARRIERS = 2,
+    HAMLET_CLASSES = 3,
+    HOUSE_PARTS = 4,
+    HOUSE_CORNERS = 16,
+    BARRIER_POINTS = 4
+};
 
 typedef struct house_part {
     double xy[8]; /* counter-clockwise */
@@ -25,6 +32,7 @@ typedef struct house {
     size_t ring_end[2], rings;
     double weight, limit, preferred[2];
     int64_t block;
+    uint32_t of; /* its class for gaps */
     bool fixed;
 } house;
 
@@ -34,6 +42,7 @@ typedef struct hamlet_barrier {
     size_t points;
     bool area, side;
     double width, gap; /* a negative gap means that of the layer */
+    uint32_t of;       /* its class for gaps */
 } hamlet_barrier;
 
 typedef struct hamlet {
@@ -42,16 +51,19 @@ typedef struct hamlet {
     hamlet_barrier barrier[HAMLET_BARRIERS];
     size_t barriers;
     double gap;
-    bool jumps;     /* are jumps allowed? */
-    bool preferred; /* do features prefer other places than their own? */
+    double class_gap[HAMLET_CLASSES * HAMLET_CLASSES]; /* symmetric; none is greater than the gap */
+    bool classes;                                      /* do these gaps count? */
+    bool jumps;                                        /* are jumps allowed? */
+    bool preferred;                                    /* do features prefer other places than their own? */
 } hamlet;
 
 typedef enum hamlet_kind {
     HAMLET_PLAIN,
     HAMLET_BARRIERS_TOO = 1, /* barriers that may be crossed */
     HAMLET_NO_JUMPS = 2,
-    HAMLET_SIDES = 4,    /* also barriers that may not be crossed; these meet no feature */
-    HAMLET_PREFERRED = 8 /* features may prefer other places than their own */
+    HAMLET_SIDES = 4,     /* also barriers that may not be crossed; these meet no feature */
+    HAMLET_PREFERRED = 8, /* features may prefer other places than their own */
+    HAMLET_CLASSED = 16   /* gaps depend on the classes of the two */
 } hamlet_kind;
 
 /* Makes n features. kinds: the allowed kinds of features. */

@@ -16,7 +16,7 @@ static void make(scene_model *m, const sunder_feature *feature, size_t n, const 
     memset(m, 0, sizeof *m);
     assert_int_equal(sunder_layer_new(feature, n, &m->layer, &err), SUNDER_OK);
     assert_int_equal(sunder_i_rules_of(options, &rules, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_barriers_make(m->layer, rules.gap, rules.gap, &m->parts, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_barriers_make(m->layer, &rules, &m->parts, &err), SUNDER_OK);
     assert_int_equal(sunder_i_order_layer(m->layer, &m->parts, true, &m->work, &err), SUNDER_OK);
     assert_int_equal(sunder_i_model_init(&m->work, &m->parts, &rules, &m->model, &err), SUNDER_OK);
 }

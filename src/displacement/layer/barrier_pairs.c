@@ -51,12 +51,12 @@ static sunder_status find_near(const sunder_i_model *model, const sunder_i_trans
 
 /* ---- One part ---------------------------------------------------------------------------------------------------- */
 
-/* Sets *drawn if the feature is nearer to the part than half the barrier's width. The caller knows that the feature is
- * nearer to the part than the required distance and that their interiors do not meet. */
-static sunder_status is_on_drawn(const sunder_i_barriers *barriers, uint32_t barrier, const sunder_shape *part,
+/* Sets *drawn if the feature is nearer to the part than half the barrier's width, `width`. The caller knows that the
+ * feature is nearer to the part than the required distance and that their interiors do not meet. */
+static sunder_status is_on_drawn(double width, const double required[2], const sunder_shape *part,
                                  const sunder_shape *feature, const double t[2], bool *drawn, sunder_error *err)
 {
-    const double *required = barriers->required[barrier], half[2] = {barriers->half[barrier], 0};
+    const double half[2] = {width, 0};
     bool apart = false;
     *drawn = required[0] == half[0] && required[1] == 0;
     if (*drawn || !(half[0] > 0)) return SUNDER_OK;
@@ -69,8 +69,7 @@ sunder_status sunder_i_barrier_relate(const sunder_i_model *model, const sunder_
                                       sunder_i_relation *relation, sunder_error *err)
 {
     const sunder_shape *shape = sunder_i_thing_shape(model, part), *own = form_against(feature, shape);
-    const uint32_t barrier = sunder_i_barrier_of(model, part);
-    const double *required = model->barriers->required[barrier];
+    const double *required = sunder_i_required_of(model, relation->a, part);
     bool apart = false;
     relation->near = relation->overlap = relation->drawn = relation->contained = relation->a_in_b =
         relation->duplicate = relation->touch = relation->kept = false;
@@ -81,7 +80,8 @@ sunder_status sunder_i_barrier_relate(const sunder_i_model *model, const sunder_
         apart = !relation->overlap;
     relation->near = !apart;
     if (status || apart || relation->overlap) return status;
-    return is_on_drawn(model->barriers, barrier, shape, own, feature->t, &relation->drawn, err);
+    const double half = model->barriers->half[sunder_i_barrier_of(model, part)];
+    return is_on_drawn(half, required, shape, own, feature->t, &relation->drawn, err);
 }
 
 /* ---- The whole barrier ------------------------------------------------------------------------------------------- */
@@ -118,8 +118,7 @@ static sunder_status find_distance(const sunder_i_model *model, const sunder_i_t
 {
     double box[4];
     box_of(feature, box);
-    double reach =
-        sunder_i_max(sunder_i_required_above(model->barriers, sunder_i_barrier_of(model, part)), extent_of(box));
+    double reach = sunder_i_max(sunder_i_owed_most(model, part), extent_of(box));
     for (bool found = false; !found; reach = found ? reach : reach * GROWTH) {
         sunder_shape *near = NULL;
         sunder_status status = find_near(model, feature, part, reach, false, &near, err);
@@ -262,10 +261,10 @@ sunder_status sunder_i_resolve_things(const sunder_i_model *model, size_t a, siz
                                       sunder_i_resolution *out, sunder_error *err)
 {
     if (!sunder_i_is_barrier(model, (uint32_t)b))
-        return sunder_i_resolve(&model->rules, sunder_i_thing_shape(model, a), sunder_i_thing_shape(model, b), upper,
-                                out, err);
+        return sunder_i_resolve(&model->rules, sunder_i_gap_of(model, (uint32_t)a, (uint32_t)b),
+                                sunder_i_thing_shape(model, a), sunder_i_thing_shape(model, b), upper, out, err);
     const sunder_i_translate home = sunder_i_at_home(model, (uint32_t)a);
-    const double gap = sunder_i_required_below(model->barriers, sunder_i_barrier_of(model, (uint32_t)b));
+    const double gap = sunder_i_owed_below(model, (uint32_t)a, (uint32_t)b);
     sunder_separation least;
     *out = (sunder_i_resolution){0};
     const sunder_status status =
@@ -282,8 +281,9 @@ sunder_status sunder_i_resolve_within(const sunder_i_model *model, size_t a, siz
     const double sum = limit[0] + limit[1];
     bool within;
     sunder_status status = sunder_i_resolve_things(model, a, b, nextafter(sum, INFINITY), out, err);
-    if (status || out->beyond || sum == INFINITY || sunder_i_is_barrier(model, (uint32_t)b) || model->rules.gap > 0 ||
-        sunder_i_may_be_inside(&model->rules) || out->least < sum * (1 - NEARLY))
+    if (status || out->beyond || sum == INFINITY || sunder_i_is_barrier(model, (uint32_t)b) ||
+        sunder_i_gap_of(model, (uint32_t)a, (uint32_t)b) > 0 || sunder_i_may_be_inside(&model->rules) ||
+        out->least < sum * (1 - NEARLY))
         return status;
     status = sunder_i_parts_within(sunder_i_thing_shape(model, a), sunder_i_thing_shape(model, b), limit, &within, err);
     if (!status) out->apart_beyond = out->beyond = !within;

@@ -140,21 +140,38 @@ static sunder_status make_shapes(sunder_i_barriers *b, sunder_error *err)
     return SUNDER_OK;
 }
 
-/* Sets the distances that features keep from barrier k. Returns false if they are too much for a double. */
-static bool set_distances(const sunder_barrier *barrier, uint32_t k, double gap, double full_gap,
-                          sunder_i_barriers *out)
+/* Sets the distances that features of one class keep from barrier k. gap, full_gap: those of the class and the
+ * barrier's class. Returns false if they are too much for a double. */
+static bool set_distance(const sunder_barrier *barrier, uint32_t k, uint32_t of, double gap, double full_gap,
+                         sunder_i_barriers *out)
 {
-    const double own = barrier->gap < 0 ? gap : barrier->gap,
-                 full = barrier->full_gap > 0 ? barrier->full_gap : barrier->gap < 0 ? full_gap : own;
-    out->half[k] = barrier->width / 2;
-    set_required(out->half[k], own, out->required[k]);
-    set_required(out->half[k], sunder_i_max(own, full), out->full[k]);
+    const double own = barrier->gap < 0 ? gap : barrier->gap;
+    const double full = barrier->full_gap > 0 ? barrier->full_gap : barrier->gap < 0 ? full_gap : own;
+    const size_t at = (size_t)k * out->classes + of;
+    set_required(out->half[k], own, out->required[at]);
+    set_required(out->half[k], sunder_i_max(own, full), out->full[at]);
     out->slack = out->slack || full > own;
-    out->farthest = sunder_i_max(out->farthest, sunder_i_full_required_above(out, k));
-    return isfinite(out->full[k][0]);
+    return isfinite(out->full[at][0]);
 }
 
-sunder_status sunder_i_barriers_make(const sunder_layer *layer, double gap, double full_gap, sunder_i_barriers *out,
+/* Sets the distances that features keep from barrier k. Returns false if they are too much for a double. */
+static bool set_distances(const sunder_layer *layer, uint32_t k, const sunder_i_rules *rules, sunder_i_barriers *out)
+{
+    const sunder_barrier *barrier = &layer->barrier[k];
+    const sunder_i_class_gaps *gaps = layer->gaps;
+    bool finite = true;
+    out->half[k] = barrier->width / 2;
+    for (uint32_t of = 0; of < out->classes && finite; of++) {
+        const size_t entry = gaps ? (size_t)of * gaps->n + gaps->of[layer->n + k] : 0;
+        const double gap = gaps ? sunder_i_min(rules->gap, gaps->gap[entry]) : rules->gap,
+                     full = gaps ? sunder_i_min(rules->full_gap, gaps->full[entry]) : rules->full_gap;
+        finite = set_distance(barrier, k, of, gap, rules->has_full ? full : gap, out);
+    }
+    out->farthest = sunder_i_max(out->farthest, sunder_i_full_required_most(out, k));
+    return finite;
+}
+
+sunder_status sunder_i_barriers_make(const sunder_layer *layer, const sunder_i_rules *rules, sunder_i_barriers *out,
                                      sunder_error *err)
 {
     memset(out, 0, sizeof *out);
@@ -162,12 +179,13 @@ sunder_status sunder_i_barriers_make(const sunder_layer *layer, double gap, doub
     out->n = (uint32_t)layer->barriers;
     out->part_end = sunder_i_alloc(layer->barriers, sizeof *out->part_end);
     out->half = sunder_i_alloc(layer->barriers, sizeof *out->half);
-    out->required = sunder_i_alloc(layer->barriers, sizeof *out->required);
-    out->full = sunder_i_alloc(layer->barriers, sizeof *out->full);
+    out->classes = layer->gaps ? (uint32_t)layer->gaps->n : 1;
+    out->required = sunder_i_alloc(layer->barriers * out->classes, sizeof *out->required);
+    out->full = sunder_i_alloc(layer->barriers * out->classes, sizeof *out->full);
     if (!out->part_end || !out->half || !out->required || !out->full) return sunder_i_failure_cause(err);
     for (uint32_t k = 0; k < out->n; k++) {
         const sunder_barrier *barrier = &layer->barrier[k];
-        if (!set_distances(barrier, k, gap, full_gap, out))
+        if (!set_distances(layer, k, rules, out))
             return sunder_i_fail(err, SUNDER_EARG, "barrier %u: half the width and the gap are too much for a double",
                                  k);
         if (!add_barrier(&m, k, &barrier->geometry)) return sunder_i_failure_cause(err);

@@ -170,7 +170,7 @@ double sunder_i_far_from_barrier(const sunder_i_model *model, uint32_t body, uin
     double far = 0;
     for (uint32_t k = first; k < end; k++)
         far = sunder_i_max(far, sunder_i_farthest_near(model, body, model->body_of[k]));
-    return 2 * (far + sunder_i_owed_above(model, first, first));
+    return 2 * (far + sunder_i_owed_most(model, first));
 }
 
 typedef struct unions_task {

@@ -76,7 +76,7 @@ bool sunder_i_has_bare_barriers(const sunder_i_model *model)
 {
     const sunder_i_barriers *b = model->barriers;
     for (uint32_t k = 0; b->flat && k < b->n; k++)
-        if (sunder_i_required_above(b, k) == 0) return true;
+        if (sunder_i_required_least(b, k) == 0) return true;
     return false;
 }
 

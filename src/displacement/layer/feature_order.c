@@ -53,6 +53,7 @@ static int by_place(void *context, uint32_t x, uint32_t y)
     for (int c = 0; c < 4 && order == 0; c++) order = by_double(a[side[c]], b[side[c]]);
     if (order == 0) order = by_shape(sunder_i_given_feature(layer, x).shape, sunder_i_given_feature(layer, y).shape);
     if (order == 0) order = by_demands(sunder_i_demands(layer, x), sunder_i_demands(layer, y));
+    if (order == 0 && layer->gaps) order = by_double(layer->gaps->of[x], layer->gaps->of[y]);
     for (size_t c = 0; c < 2 && order == 0 && layer->preferred; c++)
         order = by_double(layer->preferred[2 * (size_t)x + c], layer->preferred[2 * (size_t)y + c]);
     return order;

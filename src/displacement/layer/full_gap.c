@@ -7,6 +7,7 @@ sunder_i_model sunder_i_with_full_gap(const sunder_i_model *model, sunder_i_barr
     *barriers = *model->barriers;
     barriers->required = barriers->full;
     full.rules.gap = model->rules.full_gap;
+    full.class_gap = model->class_full;
     full.barriers = barriers;
     return full;
 }

@@ -95,6 +95,8 @@ sunder_status sunder_layer_set_barriers(sunder_layer *layer, const sunder_barrie
     if (!copy) return sunder_i_failure_cause(err);
     if (n) memcpy(copy, barriers, n * sizeof *copy);
     sunder_i_free(layer->barrier);
+    sunder_i_class_gaps_free(layer->gaps);
+    layer->gaps = NULL;
     layer->barrier = copy;
     layer->barriers = n;
     return SUNDER_OK;
@@ -221,6 +223,7 @@ sunder_status sunder_i_layer_lower(sunder_layer *layer, const sunder_shape *cons
 void sunder_layer_free(sunder_layer *layer)
 {
     if (!layer) return;
+    sunder_i_class_gaps_free(layer->gaps);
     sunder_i_free_all((void *)layer->shape, layer->demand, layer->demands, layer->barrier, layer->side_anchor,
                       layer->row, layer->preferred, layer->hiding, layer->level, layer->level_end,
                       (void *)layer->at_level, (void *)layer->original, layer);

@@ -5,6 +5,7 @@
 
 #include "sunder_hiding.h"
 #include "sunder_layer.h"
+#include "displacement/layer/class_gaps.h"
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -25,6 +26,7 @@ struct sunder_layer {
                           * are given */
     int64_t *row;        /* [n] the row of each feature, -1 for none, as the caller gives them; NULL: none are given */
     double *preferred;   /* [2 n] the moves that features prefer; NULL: all prefer to stay. Not all are 0 */
+    sunder_i_class_gaps *gaps;     /* NULL: all pairs have the gap of the options */
     sunder_hiding_cost *hiding;    /* [n] what it costs to hide each; NULL: none is hidden */
     sunder_crossed crossed;        /* what becomes of features that a barrier's line crosses */
     sunder_trimming least;         /* what a smaller shape keeps at least */
@@ -91,6 +93,7 @@ sunder_status sunder_i_layer_lower(sunder_layer *layer, const sunder_shape *cons
 typedef struct sunder_i_rules {
     double gap;      /* the distance that features have to keep */
     double full_gap; /* >= gap: the distance that they are to keep if it pays */
+    bool has_full;   /* a full gap is asked for; those of classes count */
     double tolerance;
     const sunder_shape *disc; /* a polygon in the disc with diameter `tolerance`, for sunder_i_overlap_is_thin(); owned
                                * by the model */

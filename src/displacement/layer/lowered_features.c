@@ -115,7 +115,8 @@ static sunder_status is_in_conflict(const sunder_i_model *model, const sunder_i_
         status = sunder_i_barrier_relate(model, place, g, &r, err);
     } else {
         const sunder_i_translate other = sunder_i_standing(model, placement, g);
-        status = sunder_i_relate(&model->rules, f < g ? place : &other, f < g ? &other : place, &r, err);
+        status = sunder_i_relate(&model->rules, sunder_i_gap_of(model, f, g), f < g ? place : &other,
+                                 f < g ? &other : place, &r, err);
     }
     *yes = !status && sunder_i_is_conflict_of_bodies(model, &r) && !sunder_i_is_crossed(model, f, g);
     return status;

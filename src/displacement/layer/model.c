@@ -92,6 +92,19 @@ static sunder_status build_tree(sunder_i_model *model, sunder_error *err)
     return status;
 }
 
+/* Takes the gaps by classes from the layer. */
+static void set_gaps(sunder_i_model *model)
+{
+    const sunder_i_rules *rules = &model->rules;
+    const sunder_i_class_gaps *gaps = model->gaps = model->layer->given->gaps;
+    if (!gaps) return;
+    model->class_gap = gaps->gap;
+    model->class_full = rules->has_full ? gaps->full : gaps->gap;
+    for (size_t k = 0; k < gaps->n * gaps->n && !model->class_slack; k++)
+        model->class_slack =
+            sunder_i_min(rules->full_gap, model->class_full[k]) > sunder_i_min(rules->gap, gaps->gap[k]);
+}
+
 sunder_status sunder_i_model_init(const sunder_layer *layer, const sunder_i_barriers *barriers,
                                   const sunder_i_rules *rules, sunder_i_model *model, sunder_error *err)
 {
@@ -100,6 +113,7 @@ sunder_status sunder_i_model_init(const sunder_layer *layer, const sunder_i_barr
     model->layer = layer;
     model->barriers = barriers;
     model->rules = *rules;
+    set_gaps(model);
     model->features = layer->n;
     model->things = n;
     model->body_of = sunder_i_alloc(n, sizeof *model->body_of);

@@ -147,6 +147,9 @@ struct sunder_i_model {
     sunder_i_rules rules;
     sunder_shape *disc; /* the polygon rules.disc, owned */
     const sunder_i_barriers *barriers;
+    const sunder_i_class_gaps *gaps;      /* the layer's; NULL: all pairs have the gap of the rules */
+    const double *class_gap, *class_full; /* with gaps: the gap and the full gap of each two classes */
+    bool class_slack;                     /* there are classes whose full gap is greater than the gap */
     size_t bodies;
     size_t features, things; /* the numbers of both; features come first, then the parts of barriers, which are fixed
                               * bodies */
@@ -282,42 +285,79 @@ static inline uint32_t sunder_i_whole_of(const sunder_i_model *model, uint32_t t
     return (uint32_t)model->features + sunder_i_first_part(model->barriers, thing - (uint32_t)model->features);
 }
 
-/* The distance that two things have to keep from each other, rounded down; for two features it is the gap. */
-static inline double sunder_i_owed_below(const sunder_i_model *model, uint32_t f, uint32_t g)
+/* The class of a feature for gaps; 0 if the layer has one gap. */
+static inline uint32_t sunder_i_class_of(const sunder_i_model *model, uint32_t feature)
 {
-    const uint32_t part = f > g ? f : g;
-    if (!sunder_i_is_barrier(model, part)) return model->rules.gap;
-    return sunder_i_required_below(model->barriers, sunder_i_barrier_of(model, part));
+    return model->gaps ? model->gaps->of[model->layer->number[feature]] : 0;
 }
 
-/* The distance that two things have to keep from each other, rounded up. */
+/* The gap of two things by their classes, without the drawn width and the own gap of a barrier. */
+static inline double sunder_i_gap_of(const sunder_i_model *model, uint32_t f, uint32_t g)
+{
+    const uint32_t *number = model->layer->number;
+    if (!model->gaps) return model->rules.gap;
+    return sunder_i_class_gap(model->gaps, model->class_gap, model->rules.gap, number[f], number[g]);
+}
+
+static inline double sunder_i_full_gap_of(const sunder_i_model *model, uint32_t f, uint32_t g)
+{
+    const uint32_t *number = model->layer->number;
+    if (!model->gaps) return model->rules.full_gap;
+    return sunder_i_class_gap(model->gaps, model->class_full, model->rules.full_gap, number[f], number[g]);
+}
+
+/* The distance that a feature, the lesser of two things, has to keep from a part of a barrier, the other of them. */
+static inline const double *sunder_i_required_of(const sunder_i_model *model, uint32_t f, uint32_t g)
+{
+    const uint32_t feature = f < g ? f : g, part = f < g ? g : f;
+    return sunder_i_required(model->barriers, sunder_i_barrier_of(model, part), sunder_i_class_of(model, feature));
+}
+
+static inline const double *sunder_i_full_required_of(const sunder_i_model *model, uint32_t f, uint32_t g)
+{
+    const uint32_t feature = f < g ? f : g, part = f < g ? g : f;
+    return sunder_i_full_required(model->barriers, sunder_i_barrier_of(model, part), sunder_i_class_of(model, feature));
+}
+
+/* The distance that two things have to keep from each other, rounded down, and rounded up; for two features it is their
+ * gap. */
+static inline double sunder_i_owed_below(const sunder_i_model *model, uint32_t f, uint32_t g)
+{
+    if (!sunder_i_is_barrier(model, f > g ? f : g)) return sunder_i_gap_of(model, f, g);
+    return sunder_i_rounded_down(sunder_i_required_of(model, f, g));
+}
+
 static inline double sunder_i_owed_above(const sunder_i_model *model, uint32_t f, uint32_t g)
 {
-    const uint32_t part = f > g ? f : g;
-    if (!sunder_i_is_barrier(model, part)) return model->rules.gap;
-    return sunder_i_required_above(model->barriers, sunder_i_barrier_of(model, part));
+    if (!sunder_i_is_barrier(model, f > g ? f : g)) return sunder_i_gap_of(model, f, g);
+    return sunder_i_rounded_up(sunder_i_required_of(model, f, g));
 }
 
 /* The distance that two things keep from each other if it pays, which is not less than what they have to keep: rounded
  * down, and rounded up. */
 static inline double sunder_i_full_below(const sunder_i_model *model, uint32_t f, uint32_t g)
 {
-    const uint32_t part = f > g ? f : g;
-    if (!sunder_i_is_barrier(model, part)) return model->rules.full_gap;
-    return sunder_i_full_required_below(model->barriers, sunder_i_barrier_of(model, part));
+    if (!sunder_i_is_barrier(model, f > g ? f : g)) return sunder_i_full_gap_of(model, f, g);
+    return sunder_i_rounded_down(sunder_i_full_required_of(model, f, g));
 }
 
 static inline double sunder_i_full_above(const sunder_i_model *model, uint32_t f, uint32_t g)
 {
-    const uint32_t part = f > g ? f : g;
-    if (!sunder_i_is_barrier(model, part)) return model->rules.full_gap;
-    return sunder_i_full_required_above(model->barriers, sunder_i_barrier_of(model, part));
+    if (!sunder_i_is_barrier(model, f > g ? f : g)) return sunder_i_full_gap_of(model, f, g);
+    return sunder_i_rounded_up(sunder_i_full_required_of(model, f, g));
+}
+
+/* The greatest distance that any feature has to keep from the thing, rounded up: the gap, if it is a feature. */
+static inline double sunder_i_owed_most(const sunder_i_model *model, uint32_t thing)
+{
+    if (!sunder_i_is_barrier(model, thing)) return model->rules.gap;
+    return sunder_i_required_most(model->barriers, sunder_i_barrier_of(model, thing));
 }
 
 /* Is there a pair that may stand nearer than its full distance? */
 static inline bool sunder_i_has_slack(const sunder_i_model *model)
 {
-    return model->rules.full_gap > model->rules.gap || model->barriers->slack;
+    return model->rules.full_gap > model->rules.gap || model->class_slack || model->barriers->slack;
 }
 
 /* Do two things have to keep the layer's gap from each other? A barrier may have a gap of its own. */
@@ -332,9 +372,11 @@ static inline bool sunder_i_owe_gap(const sunder_i_model *model, uint32_t f, uin
  * the gap finds everything that a distance has to be kept from. */
 static inline double sunder_i_reach_beyond(const sunder_i_model *model, uint32_t thing)
 {
-    const double beyond = sunder_i_max(0, sunder_i_owed_above(model, thing, thing) - model->rules.gap);
+    if (!sunder_i_is_barrier(model, thing)) return 0;
+    const uint32_t barrier = sunder_i_barrier_of(model, thing);
+    const double beyond = sunder_i_max(0, sunder_i_required_most(model->barriers, barrier) - model->rules.gap);
     if (!sunder_i_has_slack(model)) return beyond;
-    return sunder_i_max(beyond, sunder_i_full_above(model, thing, thing) - model->rules.full_gap);
+    return sunder_i_max(beyond, sunder_i_full_required_most(model->barriers, barrier) - model->rules.full_gap);
 }
 
 /* Is it proved that only a jump would separate the features f < g? */
@@ -515,6 +557,9 @@ sunder_status sunder_i_model_cover_walls(sunder_i_model *model, const uint32_t *
 
 /* Returns the neighbour `other` of the body in a row; NULL if it is none. */
 const sunder_i_row_side *sunder_i_row_side_of(const sunder_i_model *model, const sunder_i_body *body, uint32_t other);
+/* Returns the least gap of a member of one body to a member of the other, at most `most`; `table` is the model's
+ * class_gap or class_full. */
+double sunder_i_row_gap(const sunder_i_model *model, const double *table, double most, uint32_t i, uint32_t j);
 /* Adds the neighbours of the body in rows to a list of bodies, which is ascending. Returns false if memory is out. */
 bool sunder_i_add_row_neighbours(const sunder_i_model *model, uint32_t body, sunder_i_list *list);
 /* Sets `spring` to the springs between the two, with their weight. Returns their number. */

@@ -201,7 +201,7 @@ static sunder_status relate_pair(const sunder_i_model *model, const sunder_i_pla
     const sunder_i_translate a = sunder_i_standing(model, placement, r->a);
     if (sunder_i_is_barrier(model, r->b)) return sunder_i_barrier_relate(model, &a, r->b, r, err);
     const sunder_i_translate b = sunder_i_standing(model, placement, r->b);
-    return sunder_i_relate(&model->rules, &a, &b, r, err);
+    return sunder_i_relate(&model->rules, sunder_i_gap_of(model, r->a, r->b), &a, &b, r, err);
 }
 
 typedef struct classification {

@@ -85,18 +85,18 @@ static sunder_status distance_between(const sunder_i_translate *a, const sunder_
     return status;
 }
 
-sunder_status sunder_i_relate(const sunder_i_rules *rules, const sunder_i_translate *a, const sunder_i_translate *b,
-                              sunder_i_relation *relation, sunder_error *err)
+sunder_status sunder_i_relate(const sunder_i_rules *rules, double gap, const sunder_i_translate *a,
+                              const sunder_i_translate *b, sunder_i_relation *relation, sunder_error *err)
 {
     relation->near = relation->overlap = relation->drawn = relation->contained = relation->a_in_b =
         relation->duplicate = relation->touch = relation->kept = false;
     sunder_i_encounter m;
-    sunder_status status = sunder_i_meet(a->shape, a->t, b->shape, b->t, rules->gap, rules->tolerance, &m, err);
+    sunder_status status = sunder_i_meet(a->shape, a->t, b->shape, b->t, gap, rules->tolerance, &m, err);
     if (status) return status;
     if (m.overlap) return relate_overlapping(rules, a, b, relation, err);
     relation->near = !m.apart;
     relation->touch = m.touch;
-    if (m.touch || !m.may_touch || (m.apart && rules->gap > rules->tolerance)) return SUNDER_OK;
+    if (m.touch || !m.may_touch || (m.apart && gap > rules->tolerance)) return SUNDER_OK;
     double distance;
     status = distance_between(a, b, &distance, err);
     if (!status) relation->touch = distance <= rules->tolerance;

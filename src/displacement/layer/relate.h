@@ -25,9 +25,10 @@ typedef struct sunder_i_relation {
     bool kept;      /* contained, and the rules allow such pairs to overlap */
 } sunder_i_relation;
 
-/* Sets all flags of the relation of a and b, exactly; its members a and b are left unchanged. */
-sunder_status sunder_i_relate(const sunder_i_rules *rules, const sunder_i_translate *a, const sunder_i_translate *b,
-                              sunder_i_relation *relation, sunder_error *err);
+/* Sets all flags of the relation of a and b, which have to keep the gap, exactly; its members a and b are left
+ * unchanged. */
+sunder_status sunder_i_relate(const sunder_i_rules *rules, double gap, const sunder_i_translate *a,
+                              const sunder_i_translate *b, sunder_i_relation *relation, sunder_error *err);
 
 typedef struct sunder_i_relations {
     sunder_i_relation *pair; /* sorted by (a, b); only pairs that are near, touch or are kept */

@@ -132,12 +132,12 @@ static sunder_status least_inside(const sunder_shape *inner, const sunder_shape 
 
 /* ---- All three sets ---------------------------------------------------------------------------------------------- */
 
-sunder_status sunder_i_resolve(const sunder_i_rules *rules, const sunder_shape *a, const sunder_shape *b, double upper,
-                               sunder_i_resolution *out, sunder_error *err)
+sunder_status sunder_i_resolve(const sunder_i_rules *rules, double gap, const sunder_shape *a, const sunder_shape *b,
+                               double upper, sunder_i_resolution *out, sunder_error *err)
 {
     *out = (sunder_i_resolution){0};
     double apart;
-    sunder_status status = sunder_i_least_bound(a, b, rules->gap, upper, &apart, out->away, &out->beyond, err);
+    sunder_status status = sunder_i_least_bound(a, b, gap, upper, &apart, out->away, &out->beyond, err);
     if (status) return status;
     out->least = sunder_i_max(0, apart);
     out->apart_beyond = out->beyond = out->beyond || out->least > upper;

@@ -33,10 +33,10 @@ typedef struct sunder_i_resolution {
     double place[2];
 } sunder_i_resolution;
 
-/* Finds the least moves that resolve a pair of shapes. upper: a length beyond which the answer does not matter;
- * INFINITY for none. */
-sunder_status sunder_i_resolve(const sunder_i_rules *rules, const sunder_shape *a, const sunder_shape *b, double upper,
-                               sunder_i_resolution *out, sunder_error *err);
+/* Finds the least moves that resolve a pair of shapes, which have to keep the gap. upper: a length beyond which the
+ * answer does not matter; INFINITY for none. */
+sunder_status sunder_i_resolve(const sunder_i_rules *rules, double gap, const sunder_shape *a, const sunder_shape *b,
+                               double upper, sunder_i_resolution *out, sunder_error *err);
 /* May relative moves of length at most `reach` bring one of two features inside the other, where the rules allow it? a
  * and b are their boxes. Returns false only if it is certainly impossible. */
 bool sunder_i_may_get_inside(const sunder_i_rules *rules, const double a[4], const double b[4], double reach);

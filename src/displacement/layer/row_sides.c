@@ -14,6 +14,18 @@ const sunder_i_row_side *sunder_i_row_side_of(const sunder_i_model *model, const
     return NULL;
 }
 
+double sunder_i_row_gap(const sunder_i_model *model, const double *table, double most, uint32_t i, uint32_t j)
+{
+    const sunder_i_body *p = &model->body[i], *q = &model->body[j];
+    const uint32_t *number = model->layer->number;
+    double gap = most;
+    for (uint32_t k = 0; k < p->members && model->gaps; k++)
+        for (uint32_t l = 0; l < q->members; l++)
+            gap = sunder_i_class_gap(model->gaps, table, gap, number[model->member[p->member + k]],
+                                     number[model->member[q->member + l]]);
+    return gap;
+}
+
 bool sunder_i_add_row_neighbours(const sunder_i_model *model, uint32_t body, sunder_i_list *list)
 {
     const sunder_i_extras *has = model->body[body].has;

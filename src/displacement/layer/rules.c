@@ -71,6 +71,7 @@ sunder_status sunder_i_rules_of(const sunder_layer_options *options, sunder_i_ru
         return sunder_i_fail(err, SUNDER_EARG, "no such choice of rows: %d", (int)options->rows);
     rules->gap = options->gap;
     rules->full_gap = full;
+    rules->has_full = options->full_gap > 0;
     rules->tolerance = tolerance;
     rules->disc = NULL; /* set when the model is made */
     rules->touch_joins = !options->no_blocks && !options->no_touch;

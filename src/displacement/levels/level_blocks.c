@@ -118,7 +118,7 @@ sunder_status sunder_i_blocks_find(const sunder_layer *layer, const sunder_layer
     sunder_i_rules rules;
     *out = (sunder_i_blocks){0};
     sunder_status status = sunder_i_rules_of(options, &rules, err);
-    if (!status) status = sunder_i_barriers_make(layer, rules.gap, rules.full_gap, &out->barriers, err);
+    if (!status) status = sunder_i_barriers_make(layer, &rules, &out->barriers, err);
     if (!status) status = sunder_i_order_layer(layer, &out->barriers, true, &out->layer, err);
     if (!status) status = sunder_i_model_init(&out->layer, &out->barriers, &rules, &out->model, err);
     if (!status) status = sunder_i_placement_init(&out->model, &out->placement, err);

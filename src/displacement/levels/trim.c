@@ -113,15 +113,15 @@ static sunder_status list_crossed(const trimmer *t, zones *z, const sunder_shape
     return status;
 }
 
-/* Adds the zones of the listed pieces that reach a box, except those of crossed barriers if these are kept. Returns
- * false if memory is out. */
-static bool add_zones(const trimmer *t, zones *z, const double box[4], double margin)
+/* Adds the zones of the listed pieces, for features of one class, that reach a box, except those of crossed barriers if
+ * these are kept. Returns false if memory is out. */
+static bool add_zones(const trimmer *t, zones *z, uint32_t of, const double box[4], double margin)
 {
     bool ok = true;
     z->cuts.n = z->cuts.corners = 0;
     for (size_t k = 0; k < z->near.n && ok; k++) {
         const uint32_t piece = z->near.item[k], barrier = t->barrier_of[piece];
-        const double radius = sunder_i_required_above(&t->barriers, barrier) + margin;
+        const double radius = sunder_i_rounded_up(sunder_i_required(&t->barriers, barrier, of)) + margin;
         double own[4];
         if (t->layer->crossed == SUNDER_CROSSED_KEEP && sunder_i_set_has(z->crossed.item, z->crossed.n, barrier))
             continue;
@@ -164,7 +164,7 @@ static sunder_status trim_feature(const trimmer *t, zones *z, size_t f, sunder_e
     if (t->layer->crossed != SUNDER_CROSSED_TRIM)
         status = list_crossed(t, z, sunder_i_original_shape(t->layer, f), err);
     if (status || (t->layer->crossed == SUNDER_CROSSED_HIDE && z->crossed.n)) return status;
-    if (!add_zones(t, z, box, margin)) return sunder_i_failure_cause(err);
+    if (!add_zones(t, z, t->layer->gaps ? t->layer->gaps->of[f] : 0, box, margin)) return sunder_i_failure_cause(err);
     if (z->cuts.n == 0) return SUNDER_OK;
     status = sunder_i_shape_subtract(shape, &z->cuts, &trimmed, err);
     if (!status && trimmed && stands_alone(t, f))
@@ -222,7 +222,9 @@ static sunder_status prepare_trimmer(trimmer *t, const sunder_i_rules *rules, su
         t->round[2 * k] = circumradius * cos(angle);
         t->round[2 * k + 1] = circumradius * sin(angle);
     }
-    sunder_status status = sunder_i_barriers_make(t->layer, rules->gap, rules->gap, &t->barriers, err);
+    sunder_i_rules bare = *rules;
+    bare.has_full = false;
+    sunder_status status = sunder_i_barriers_make(t->layer, &bare, &t->barriers, err);
     if (!status) status = index_pieces(t, err);
     if (!status && t->how.width > 0) status = sunder_shape_disc(t->how.width / 2, ROUND_CORNERS, false, &t->disc, err);
     return status;

@@ -36,7 +36,7 @@ static double gap_of(const sunder_i_solver *s, const sunder_conflict *c)
         return sunder_i_max(0, nextafter(in_row ? sunder_i_min(c->distance, c->before) : c->distance, -INFINITY));
     }
     if (c->kind != SUNDER_CONFLICT_BARRIER_NEAR) return -1;
-    const double gap = s->model.rules.gap, width = c->required - gap;
+    const double gap = sunder_i_gap_of(&s->model, (uint32_t)c->a, (uint32_t)c->b), width = c->required - gap;
     /* The last term covers three roundings, and those of c->distance and c->required. */
     return c->distance - width - 0x1p-50 * (c->distance + c->required + gap);
 }
@@ -82,28 +82,28 @@ static double reach_of(const sunder_i_model *model, const sunder_conflict *c)
     return c->b < model->features ? limit + sunder_i_limit_of(&model->body[model->body_of[c->b]]) : limit;
 }
 
-/* Computes the least relative move with which the pair keeps `gap`: *least is a proved lower bound of its length,
- * *length the length found. */
+/* Computes the least relative move with which the pair keeps `gap`, or its own gap if that is less: *least is a proved
+ * lower bound of its length, *length the length found. */
 static sunder_status least_for_gap(const sunder_i_model *model, const sunder_conflict *c, double gap, double *least,
                                    double *length, sunder_error *err)
 {
+    const double own = sunder_i_gap_of(model, (uint32_t)c->a, (uint32_t)c->b);
     if (c->b < model->features) {
-        sunder_i_rules rules = model->rules;
         sunder_i_resolution way;
-        rules.gap = gap;
-        const sunder_status status = sunder_i_resolve(&rules, sunder_i_thing_shape(model, c->a),
-                                                      sunder_i_thing_shape(model, c->b), INFINITY, &way, err);
+        const sunder_status status =
+            sunder_i_resolve(&model->rules, sunder_i_min(gap, own), sunder_i_thing_shape(model, c->a),
+                             sunder_i_thing_shape(model, c->b), INFINITY, &way, err);
         *least = way.least;
         *length = hypot(way.away[0], way.away[1]);
         return status;
     }
     const uint32_t barrier = (uint32_t)c->b;
     const sunder_i_translate home = sunder_i_at_home(model, (uint32_t)c->a);
-    const double owed = sunder_i_required_below(model->barriers, sunder_i_barrier_of(model, barrier));
+    const double owed = sunder_i_owed_below(model, (uint32_t)c->a, barrier);
     sunder_separation way = {0};
     bool beyond;
     const sunder_status status = sunder_i_barrier_least(
-        model, &home, barrier, sunder_i_max(0, owed - model->rules.gap + gap), INFINITY, &way, &beyond, err);
+        model, &home, barrier, sunder_i_max(0, owed - own + sunder_i_min(gap, own)), INFINITY, &way, &beyond, err);
     *least = way.lower_bound;
     *length = way.distance;
     return status;
@@ -274,8 +274,7 @@ static sunder_status settle_gap(gap_search *g, double gap, bool careful, bool *y
         status = try_gap(g, 0, true, &any, err);
         if (status || !any) return status;
     }
-    if (verdict == SUNDER_I_UNKNOWN || (careful && gap == 0))
-        return try_gap(g, gap * (1 - NEED_LESS), !f, yes, err);
+    if (verdict == SUNDER_I_UNKNOWN || (careful && gap == 0)) return try_gap(g, gap * (1 - NEED_LESS), !f, yes, err);
     g->high = sunder_i_min(g->high, gap);
     return SUNDER_OK;
 }

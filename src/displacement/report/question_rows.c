@@ -11,12 +11,15 @@
 
 #include <math.h>
 
-/* Returns what the rule demands of a pair that does not remain in conflict, with this gap. */
-static double least_with(const sunder_i_model *whole, const sunder_i_row_side *side, double gap)
+/* Returns what the rule demands of a body and a neighbour that do not remain in conflict, with this gap, or their own
+ * gap if that is less. */
+static double least_with(const sunder_i_model *whole, uint32_t body, const sunder_i_row_side *side, double gap)
 {
-    if (side->least == 0 || gap == whole->rules.gap) return side->least;
-    if (side->least < 0 && whole->rules.full_gap > whole->rules.gap) return side->least; /* it keeps the full gap */
-    const double least = nextafter(side->least - (whole->rules.gap - gap), INFINITY);
+    const double own = sunder_i_row_gap(whole, whole->class_gap, whole->rules.gap, body, side->other);
+    if (side->least == 0 || gap >= own) return side->least;
+    if (side->least < 0 && (whole->rules.full_gap > whole->rules.gap || whole->class_slack))
+        return side->least; /* it keeps the full gap */
+    const double least = nextafter(side->least - (own - gap), INFINITY);
     return side->least > 0 ? sunder_i_max(least, 0) : least;
 }
 
@@ -67,7 +70,7 @@ sunder_status sunder_i_question_rows(const sunder_i_questions *questions, const 
             *d = (sunder_i_row_demand){.a = (uint32_t)k,
                                        .b = (uint32_t)other,
                                        .along = {side->along[0], side->along[1]},
-                                       .least = least_with(whole, side, what->gap),
+                                       .least = least_with(whole, body, side, what->gap),
                                        .least_listed = side->least_listed};
             if (other < a->moving) continue;
             const double *s = whole->move + 2 * (size_t)side->other, stands = s[0] * d->along[0] + s[1] * d->along[1];
@@ -124,7 +127,7 @@ bool sunder_i_question_leaves_row(const sunder_i_questions *questions, const sun
             find_move(a, whole, small, side->other, s);
             if (t[0] == s[0] && t[1] == s[1]) continue;
             const bool left = is_left(a, whole, small, what->gone, body, side->other);
-            if (!sunder_i_keeps_row(side, t, s, left ? side->least_listed : least_with(whole, side, what->gap)))
+            if (!sunder_i_keeps_row(side, t, s, left ? side->least_listed : least_with(whole, body, side, what->gap)))
                 return true;
         }
     }

@@ -167,6 +167,25 @@ static sunder_status set_barriers(const sunder_i_solver *s, const sunder_i_surro
     return status;
 }
 
+/* Gives the features and barriers of the small layer their classes for gaps. */
+static sunder_status set_gaps(const sunder_i_model *model, const sunder_i_surroundings *a, uint32_t gone,
+                              sunder_layer *layer, sunder_error *err)
+{
+    const sunder_i_class_gaps *gaps = model->gaps;
+    const uint32_t *number = model->layer->number;
+    if (!gaps) return SUNDER_OK;
+    const size_t n = a->feature.n;
+    uint32_t *of = sunder_i_alloc(n + a->part.n, sizeof *of);
+    if (!of) return sunder_i_failure_cause(err);
+    for (size_t k = 0; k < n; k++) of[k] = gaps->of[number[a->feature.item[k]]];
+    for (size_t k = 0, parts = 0; k < a->part.n; k++)
+        if (sunder_i_whole_of(model, a->part.item[k]) != gone) of[n + parts++] = gaps->of[number[a->part.item[k]]];
+    const sunder_gaps own = {.classes = gaps->n, .gap = gaps->gap, .feature = of, .barrier = of + n};
+    const sunder_status status = sunder_layer_set_gaps(layer, &own, err);
+    sunder_i_free(of);
+    return status;
+}
+
 /* Gives the movable features the anchors from which the whole layer determines their sides; the whole layer has more
  * barriers. */
 static sunder_status set_side_anchors(const sunder_i_model *model, const sunder_i_surroundings *a, sunder_layer *layer,
@@ -212,7 +231,8 @@ sunder_status sunder_i_surroundings_layer(const sunder_i_surroundings *surroundi
     sunder_i_free(feature);
     if (!status) status = set_side_anchors(&solver->model, a, *layer, err);
     if (!status && solver->layer.lowered) status = set_levels(&solver->model, a, *layer, err);
-    return status ? status : set_barriers(solver, a, gone, *layer, err);
+    if (!status) status = set_barriers(solver, a, gone, *layer, err);
+    return status ? status : set_gaps(&solver->model, a, gone, *layer, err);
 }
 
 /* ---- Its numbers in the whole layer ------------------------------------------------------------------------------ */

@@ -58,8 +58,10 @@ static void add_halves(uint32_t i, const sunder_i_row_side *there, half *out, si
 static void add_edge(const sunder_i_model *model, const sunder_i_row_edge *e, bool near, half *out, size_t *n)
 {
     const bool ruled = e->apart > 0;
-    const double full = ruled ? model->rules.full_gap - e->apart : -INFINITY, listed = sunder_i_min(0, full),
-                 least = ruled ? sunder_i_max(model->rules.gap - e->apart, listed) : -INFINITY;
+    const double full_gap = sunder_i_row_gap(model, model->class_full, model->rules.full_gap, e->i, e->j),
+                 gap = sunder_i_row_gap(model, model->class_gap, model->rules.gap, e->i, e->j);
+    const double full = ruled ? full_gap - e->apart : -INFINITY, listed = sunder_i_min(0, full),
+                 least = ruled ? sunder_i_max(gap - e->apart, listed) : -INFINITY;
     const sunder_i_row_side there = {e->j,
                                      {e->along[0], e->along[1]},
                                      near ? least : listed,

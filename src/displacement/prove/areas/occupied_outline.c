@@ -62,6 +62,16 @@ static sunder_status unite_members(const sunder_shape *shape, sunder_shape **out
     return status;
 }
 
+/* Returns the least gap that a body has to keep from features. */
+static double least_gap(const sunder_i_model *model, uint32_t body)
+{
+    const sunder_i_body *b = &model->body[body];
+    double least = model->rules.gap;
+    for (uint32_t m = 0; m < b->members && model->gaps; m++)
+        least = sunder_i_min(least, model->gaps->part[sunder_i_class_of(model, model->member[b->member + m])]);
+    return least;
+}
+
 sunder_status sunder_i_outline_make(const sunder_i_model *model, uint32_t body, sunder_i_outline *out,
                                     sunder_error *err)
 {
@@ -70,8 +80,9 @@ sunder_status sunder_i_outline_make(const sunder_i_model *model, uint32_t body, 
     if (!shape || sunder_shape_is_empty(shape)) return SUNDER_OK;
     sunder_shape *made = NULL;
     sunder_status status = SUNDER_OK;
-    if (model->rules.gap > 0)
-        status = sunder_i_grow_by_tolerance(shape, model->rules.gap / 2 * HALF_GAP, &made, err);
+    const double gap = least_gap(model, body);
+    if (gap > 0)
+        status = sunder_i_grow_by_tolerance(shape, gap / 2 * HALF_GAP, &made, err);
     else if (sunder_shape_polygons(shape) > 1)
         status = unite_members(shape, &made, err);
     if (!status) status = take_rings(made ? made : shape, out, err);

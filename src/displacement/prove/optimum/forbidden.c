@@ -88,7 +88,7 @@ static bool hides_in_diagonals(const sunder_i_listing *l, const sunder_i_body *o
 {
     const uint32_t part = l->model->member[other->member];
     return of->has->diagonal_covers && sunder_i_is_barrier(l->model, part) &&
-           sunder_i_owed_below(l->model, part, part) == 0;
+           sunder_i_required_least(l->model->barriers, sunder_i_barrier_of(l->model, part)) == 0;
 }
 
 /* Adds the pieces made of the covers of diagonals of `of` and pieces of `other` without area. swapped: `of` is the

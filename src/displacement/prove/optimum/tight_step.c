@@ -42,15 +42,30 @@ static bool lower_by_piece(sunder_i_tight *f, const sunder_i_body_piece *piece, 
     return true;
 }
 
-/* Lowers *exponent to the lowest bit of a body's coordinates and of the distance that it has to keep; *known is set if
- * that distance is a double. Returns false if memory is out. */
+/* Lowers *exponent to the lowest bit of each distance that has to be kept from a thing; *known is set if all of them
+ * are doubles. */
+static void lower_by_distances(const sunder_i_model *model, uint32_t thing, int *exponent, bool *known)
+{
+    const bool part = sunder_i_is_barrier(model, thing);
+    const size_t classes = model->gaps ? model->gaps->n : 1;
+    *known = true;
+    if (!part) lower_exponent(exponent, model->rules.gap);
+    for (uint32_t of = 0; part && of < classes; of++) {
+        const double *owed = sunder_i_required(model->barriers, sunder_i_barrier_of(model, thing), of);
+        lower_exponent(exponent, owed[0]);
+        *known = *known && owed[1] == 0;
+    }
+    for (size_t k = 0; !part && model->gaps && k < classes * classes; k++)
+        lower_exponent(exponent, model->class_gap[k]);
+}
+
+/* Lowers *exponent to the lowest bit of a body's coordinates and of the distances that it has to keep; *known is set if
+ * these are doubles. Returns false if memory is out. */
 static bool lower_by_body(sunder_i_tight *f, const sunder_i_body *body, int *exponent, bool *known)
 {
     const sunder_i_model *model = f->model;
     const uint32_t thing = model->member[body->member];
-    const double owed = sunder_i_owed_below(model, thing, thing);
-    lower_exponent(exponent, owed);
-    *known = owed == sunder_i_owed_above(model, thing, thing);
+    lower_by_distances(model, thing, exponent, known);
     const sunder_i_body_pieces *of = sunder_i_pieces_of(model, body);
     if (!of) return false;
     for (uint32_t p = 0; *known && p < body->pieces; p++)

@@ -185,7 +185,10 @@ bool sunder_i_branching_shades(const sunder_i_branching *branching, uint32_t f, 
 double sunder_i_branching_owed(const sunder_i_subproblem *subproblem, uint32_t f, uint32_t g)
 {
     const double owed = sunder_i_owed_below(subproblem->model, f, g), less = subproblem->less;
-    return less > 0 && sunder_i_owe_gap(subproblem->model, f, g) ? sunder_i_max(owed - less, 0) : owed;
+    if (!(less > 0) || !sunder_i_owe_gap(subproblem->model, f, g)) return owed;
+    /* The gap that remains is demanded of pairs whose own gap is greater. */
+    const double spare = subproblem->model->rules.gap - sunder_i_gap_of(subproblem->model, f, g);
+    return sunder_i_max(owed - sunder_i_max(less - spare, 0), 0);
 }
 
 bool sunder_i_branching_owe(const sunder_i_branching *branching, uint32_t f, uint32_t g, double *clearance)

@@ -109,7 +109,7 @@ static sunder_status find_least(const sunder_i_model *model, uint32_t f, uint32_
     const sunder_status status =
         beside ? sunder_i_barrier_least(model, &home, g, sunder_i_owed_above(model, f, g), upper, &least, &beyond, err)
                : sunder_i_separate(sunder_i_thing_shape(model, f), none, sunder_i_thing_shape(model, g), none,
-                                   model->rules.gap, upper, &least, &beyond, err);
+                                   sunder_i_gap_of(model, f, g), upper, &least, &beyond, err);
     if (status) return status;
     *found = !beyond;
     d[0] = beside ? -least.dx : least.dx;

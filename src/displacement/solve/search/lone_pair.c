@@ -85,7 +85,8 @@ static sunder_status are_apart(const sunder_i_search *s, const sunder_bound_pair
                                sunder_error *err)
 {
     const sunder_shape *p = sunder_i_thing_shape(s->model, pair->a), *q = sunder_i_thing_shape(s->model, pair->b);
-    return sunder_i_apart(p, t, q, t + 2, s->model->rules.gap, apart, err);
+    const double gap = sunder_i_gap_of(s->model, (uint32_t)pair->a, (uint32_t)pair->b);
+    return sunder_i_apart(p, t, q, t + 2, gap, apart, err);
 }
 
 /* Rounds the move of body k, unless it is fixed. Returns whether the moved coordinates are doubles without further

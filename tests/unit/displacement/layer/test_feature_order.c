@@ -60,7 +60,7 @@ static void check_order(const scene *s, bool as_given)
     sunder_error err;
     bool seen[100] = {false};
     assert_int_equal(sunder_layer_new(s->feature, s->n, &layer, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_barriers_make(layer, 1, 1, &parts, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_barriers_make(layer, &(sunder_i_rules){.gap = 1}, &parts, &err), SUNDER_OK);
     assert_int_equal(sunder_i_order_layer(layer, &parts, as_given, &work, &err), SUNDER_OK);
     for (size_t k = 0; k < s->n; k++) {
         const size_t f = work.number[k];

@@ -40,7 +40,7 @@ static void begin(layer *l, bool barrier)
     const sunder_barrier one = {{.shape = l->bar}, 0, -1, false, 0};
     if (barrier) assert_int_equal(sunder_layer_set_barriers(l->layer, &one, 1, &err), SUNDER_OK);
     assert_int_equal(sunder_i_rules_of(&l->scene.options, &rules, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_barriers_make(l->layer, 1, 1, &l->parts, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_barriers_make(l->layer, &(sunder_i_rules){.gap = 1}, &l->parts, &err), SUNDER_OK);
     assert_int_equal(sunder_i_order_layer(l->layer, &l->parts, true, &l->work, &err), SUNDER_OK);
     assert_int_equal(sunder_i_model_init(&l->work, &l->parts, &rules, &l->model, &err), SUNDER_OK);
     assert_int_equal(sunder_i_relaxation_of(&l->model, 0, 1, &l->relaxation, &err), SUNDER_OK);

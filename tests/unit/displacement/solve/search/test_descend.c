@@ -61,7 +61,7 @@ static void go_down(double x)
     assert_int_equal(sunder_layer_new(s.feature, s.n, &layer, &err), SUNDER_OK);
     assert_int_equal(sunder_layer_set_barriers(layer, &barrier, 1, &err), SUNDER_OK);
     assert_int_equal(sunder_i_rules_of(&s.options, &rules, &err), SUNDER_OK);
-    assert_int_equal(sunder_i_barriers_make(layer, 0, 0, &parts, &err), SUNDER_OK);
+    assert_int_equal(sunder_i_barriers_make(layer, &(sunder_i_rules){0}, &parts, &err), SUNDER_OK);
     assert_int_equal(sunder_i_order_layer(layer, &parts, true, &work, &err), SUNDER_OK);
     assert_int_equal(sunder_i_model_init(&work, &parts, &rules, &model, &err), SUNDER_OK);
     assert_int_equal(sunder_i_model_join(&model, &none, &err), SUNDER_OK);
