@@ -136,7 +136,8 @@ static bool resolve_room(const gis_options *options, gis_layer_rules *out, gis_e
 /* Refuses what does not know preferred places. */
 static bool check_preferred(const gis_options *options, gis_error *error)
 {
-    static const gis_option_id preferring[] = {OPT_PREFER_DX, OPT_PREVIOUS}, not_with[] = {OPT_PROOF, OPT_MAX_MEMORY};
+    static const gis_option_id preferring[] = {OPT_PREFER_DX, OPT_PREVIOUS, OPT_LINKS},
+                               not_with[] = {OPT_PROOF, OPT_MAX_MEMORY};
     for (size_t i = 0; i < sizeof preferring / sizeof *preferring; i++)
         for (size_t k = 0; k < sizeof not_with / sizeof *not_with && options->given[preferring[i]]; k++)
             if (options->given[not_with[k]])
@@ -278,6 +279,7 @@ bool gis_resolve_layer(const gis_options *options, gis_layer_input_request *out,
         .scale = options->number[OPT_SCALE],
         .previous = options->text[OPT_PREVIOUS],
         .previous_stays = options->text[OPT_PREVIOUS_RELAX] && strcmp(options->text[OPT_PREVIOUS_RELAX], "no") == 0,
+        .links = {.radius = gis_resolve_length(options, OPT_LINKS_RADIUS)},
         .id_field = options->text[OPT_ID_FIELD],
         .symbol = options->text[OPT_SYMBOL],
         .symbol_field = options->text[OPT_SYMBOL_FIELD],
@@ -287,6 +289,7 @@ bool gis_resolve_layer(const gis_options *options, gis_layer_input_request *out,
         .drawn = options->given[OPT_REPORT],
         .may_have_symbols = (gis_option_table[OPT_SYMBOL].commands & options->command->bit) != 0,
     };
+    if (options->given[OPT_LINKS] && !gis_links_parse(options->text[OPT_LINKS], &out->links, error)) return false;
     return gis_resolve_invalid(options, &out->invalid, error) && resolve_rules(options, &out->rules, error) &&
            check_before(options, error) && resolve_barriers(options, out, error) &&
            resolve_least_gaps(options, out, error);

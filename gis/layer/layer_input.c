@@ -348,6 +348,7 @@ void gis_layer_input_request_clear(gis_layer_input_request *request)
 {
     for (size_t k = 0; k < request->barriers; k++) gis_barrier_request_clear(&request->barrier[k]);
     free(request->barrier);
+    gis_links_request_clear(&request->links);
     request->barrier = NULL;
     request->barriers = 0;
 }

@@ -7,6 +7,7 @@
 #include "layer/barriers/barrier.h"
 #include "layer/block_keys.h"
 #include "layer/layer_rules.h"
+#include "layer/links/links.h"
 #include "layer/rungs.h"
 #include "read/read_shape.h"
 #include "sunder_hiding.h"
@@ -23,6 +24,7 @@ typedef struct gis_layer_input_request {
     const char *id_field;
     const char *previous;              /* the result of an earlier run, whose moves are preferred */
     bool previous_stays;               /* also beside places that are empty now */
+    gis_links_request links;           /* owned; lines from old places to new ones, whose moves are preferred */
     const char *symbol, *symbol_field; /* if one of them is given, features are points at which symbols are drawn */
     const char *symbol_size_field;     /* field with a factor for each symbol */
     bool may_have_symbols;             /* the command has --symbol, so a hint is given for points without one */

@@ -1,5 +1,6 @@
-/* preferred_moves.c: the places that features prefer, as moves from where they stand: the cost counts from there. */
-#include "layer/layer_input.h"
+/* preferred_moves.c: the places that features prefer, as moves from where they stand: the cost counts from there. A
+ * field goes before an earlier result, and that before links. */
+#include "layer/output.h"
 
 #include "base/core_error.h"
 #include "read/fields.h"
@@ -27,17 +28,37 @@ static bool take_fields(const gis_layer_input *input, size_t i, double move[2], 
     return true;
 }
 
+/* Sets the moves that links give the places of features. */
+static bool take_links(const gis_layer_input *input, double *move, gis_error *error)
+{
+    const gis_links_request *request = &input->request->links;
+    gis_links links = {0};
+    if (!request->dataset) return true;
+    const gis_links_surroundings around = {gis_source_crs(input->source), &input->units, input->request->output,
+                                           input->request->update};
+    bool ok = gis_links_read(request, &around, &links, error);
+    for (size_t i = 0; i < input->n && ok; i++) {
+        double at[2];
+        if (input->feature[i].ignored) continue;
+        ok = gis_arrow_start(input, i, at, error);
+        if (ok) gis_links_move(&links, at, move + 2 * i);
+    }
+    gis_links_clear(&links);
+    return ok;
+}
+
 bool gis_layer_set_preferred(gis_layer_input *input, gis_error *error)
 {
+    const gis_previous *previous = &input->previous;
     sunder_error why;
-    if (input->prefer_field[0] < 0 && !input->request->previous) return true;
+    if (input->prefer_field[0] < 0 && !input->request->previous && !input->request->links.dataset) return true;
     if (!gis_previous_read(input, error)) return false;
     double *move = calloc(2 * input->n + 1, sizeof *move);
-    bool ok = move || gis_no_memory(error);
+    bool ok = (move || gis_no_memory(error)) && take_links(input, move, error);
     for (size_t i = 0; i < input->n && ok; i++) {
         if (input->feature[i].ignored) continue;
-        if (input->previous.move && !input->previous.relaxed[i])
-            memcpy(move + 2 * i, input->previous.move + 2 * i, 2 * sizeof *move);
+        if (previous->move && previous->of[i] != SIZE_MAX && !previous->relaxed[i])
+            memcpy(move + 2 * i, previous->move + 2 * i, 2 * sizeof *move);
         if (input->prefer_field[0] >= 0) ok = take_fields(input, i, move + 2 * i, error);
     }
     if (ok && sunder_layer_set_preferred(input->layer, move, &why) != SUNDER_OK)

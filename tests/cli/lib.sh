@@ -49,7 +49,7 @@ demand_rules_kept() {
                 --rows | --symbol | --symbol-field | --scale | --id-field) rules+=("$1" "$2") && shift ;;
             --allow-jumps) rules+=("$1") ;;
             --effort | --weight | --weight-field | --block-field | --ease | --row-stiffness | --threads | --max-memory | --seed | \
-                --prefer-dx | --prefer-dy | --previous | --previous-relax | \
+                --prefer-dx | --prefer-dy | --previous | --previous-relax | --links | --links-radius | \
                 --stats | --report | --proof | --trace | --messages) shift ;;
             --no-blocks | --overwrite | -q | --quiet | --list-inside | --allow-conflicts | --no-styles) ;;
             *) return 0 ;;

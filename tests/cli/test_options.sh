@@ -31,6 +31,7 @@ json '.commands[] | .name as $command | .options[] | select(.needs != [])
 same "$(cut -f 1,2,4- alone | tr '\t' ' ')" "separate --prefer-dx --prefer-dy
 separate --prefer-dy --prefer-dx
 separate --previous-relax --previous
+separate --links-radius --links
 separate --hierarchy-field --hide
 separate --hide-weight --hide
 separate --drop-hidden --hide

@@ -121,6 +121,10 @@ OPTIONS = (
            "the key field, otherwise by FID."),
     Option("--previous-relax", CHOICE, ("separate",), "Features beside a place that is empty now",
            "Otherwise moves would be kept whose reason is gone.", 0, ("yes", "no"), ("May go back", "Stay")),
+    Option("--links", SOURCE, ("separate",), "Lines from old to new places, along which features prefer to move",
+           "Between the starts of lines the move is interpolated. An earlier result goes before it, and fields go before both."),
+    Option("--links-radius", LENGTH, ("separate",), "Distance from the starts of lines up to which they matter",
+           "Less from half of it on; 0: no limit.", 0),
     # ---- No room ----
     Option("--hide", FLAG, ("separate",), "Leave out features that cannot be given room",
            "As few as possible, with a proved lower bound. They stay in the layer, with 1 in sunder_inv.", False),
@@ -211,6 +215,7 @@ NOUNS = {
     "--ease": "price of what pairs lack",
     "--prefer-dx": "field of the preferred moves in x", "--prefer-dy": "field of the preferred moves in y",
     "--previous": "earlier result", "--previous-relax": "choice for features beside empty places",
+    "--links": "lines to new places", "--links-radius": "radius of the lines",
     "--hide": "checkbox to leave features out", "--hierarchy-field": "field of the classes",
     "--hide-weight": "weight of what is left out", "--drop-hidden": "checkbox to drop what is left out",
     "--hidden-field": "field of what is left out", "--trim": "checkbox to cut features back",
