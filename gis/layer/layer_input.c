@@ -277,7 +277,8 @@ void gis_layer_drop_features(gis_layer_input *input)
     for (size_t i = 0; input->given && i < input->n; i++) sunder_shape_free(input->given[i]);
     free(input->shape);
     free(input->given);
-    input->given = NULL;
+    free(input->read);
+    input->given = input->read = NULL;
     gis_levels_clear(&input->levels);
     clear_previous(&input->previous);
     free(input->feature);
@@ -313,12 +314,19 @@ void gis_layer_default_demands(gis_layer_input *input)
     }
 }
 
+/* Lets the source take vertices from the shapes as read, which stay so if features become larger. */
+static bool lend_shapes(gis_layer_input *input, gis_error *error)
+{
+    const gis_layer_rules *rules = &input->request->rules;
+    if (rules->enlarge && !(input->read = malloc((input->n + 1) * sizeof *input->read))) return gis_no_memory(error);
+    for (size_t i = 0; input->read && i < input->n; i++) input->read[i] = input->shape[i];
+    return gis_source_borrow(input->source, input->read ? input->read : input->shape, rules->core.threads, error);
+}
+
 bool gis_layer_input_read(const gis_layer_input_request *request, gis_layer_input *out, gis_error *error)
 {
     if (!gis_layer_begin(request, true, out, error) || !gis_layer_make_room(out, true, error)) return false;
-    if (!gis_layer_lengths(out, error) || !gis_layer_shapes(out, error) ||
-        !gis_source_borrow(out->source, out->shape, request->rules.core.threads, error))
-        return false;
+    if (!gis_layer_lengths(out, error) || !gis_layer_shapes(out, error) || !lend_shapes(out, error)) return false;
     gis_layer_default_demands(out);
     gis_layer_warn_of_crs(out);
     gis_layer_warn_of_others(out, gis_source_content_count(out->source, GIS_POINTS) > 0);

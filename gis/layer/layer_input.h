@@ -58,13 +58,14 @@ typedef struct gis_layer_input {
     bool points;    /* features are points, and the shapes are their symbols */
     bool as_chords; /* arcs are replaced by their polylines, and shapes are not enlarged to contain the arcs */
     gis_crs_units units;
-    double gap, max_shift;    /* in units of the layer; max_shift = INFINITY: no limit */
-    double least_gap;         /* in units of the layer, if the rules have one */
-    double tolerance;         /* in units of the layer; negative: the default */
-    sunder_shape **shape;     /* [n] NULL: the feature cannot conflict */
-    sunder_shape **given;     /* [n] the shape as read of each enlarged feature, NULL for others; NULL: none */
-    size_t enlarged;          /* the number of features made larger */
-    bool blocks_given;        /* feature[].block decides alone; no blocks are formed by touching */
+    double gap, max_shift; /* in units of the layer; max_shift = INFINITY: no limit */
+    double least_gap;      /* in units of the layer, if the rules have one */
+    double tolerance;      /* in units of the layer; negative: the default */
+    sunder_shape **shape;  /* [n] NULL: the feature cannot conflict */
+    sunder_shape **given;  /* [n] the shape as read of each enlarged feature, NULL for others; NULL: none */
+    sunder_shape **read;   /* [n] borrowed: all shapes as read, if some may become larger; NULL: they are in shape[] */
+    size_t enlarged;       /* the number of features made larger */
+    bool blocks_given;     /* feature[].block decides alone; no blocks are formed by touching */
     gis_rung_lengths lengths; /* of the rules for other shapes */
     gis_levels levels;        /* the smaller shapes that features may have, if they are to be moved */
     sunder_feature *feature;  /* [n] */

@@ -65,7 +65,11 @@ expect 0 separate p.gpkg q.gpkg --overwrite --gap 3 --max-shift 1 --enlarge --mi
 same "$(jq -c '[.hidden.count, .hidden.weight, .enlarged]' q.json)" '[1,3,2]' "one of them has to go, and weighs what it did:"
 for name in a b; do
     case $(house q.gpkg "$name" sunder_inv) in
-    1) same "$(house q.gpkg "$name" sunder_siz | cut -c1-4),$(house q.gpkg "$name" sunder_cut)" "3,0" "hidden:" ;;
+    1)
+        same "$(house q.gpkg "$name" sunder_siz | cut -c1-4),$(house q.gpkg "$name" sunder_cut)" "3,0" "hidden:"
+        same "$(box q.gpkg "$name")" "$(box p.gpkg "$name")" "hidden, and written as given:"
+        same "$(ogrinfo -q q.gpkg -dialect SQLite -sql 'SELECT ST_Area(geom) AS a FROM houses_hidden' | sed -n 's/.*a (Real) = //p')" 9 "its area:"
+        ;;
     *) same "$(house q.gpkg "$name" sunder_lvl)" 0 "visible:" ;;
     esac
 done
