@@ -23,9 +23,10 @@ proof=()
 alike o.gpkg 99M --gap 1.5 --effort 0 --rows auto --max-shift 0.3 --ease 30
 jq -e '.shortfall.pairs > 50' whole.json >/dev/null || fail "few are short: $(jq -c .shortfall whole.json)"
 
-# Hidden and smaller features.
-drawn o.shp 103M --gap 1.5 --effort 0 --max-shift 0.3 --hide --hide-weight 1 --id-field id --inset 0.3 --min-size 4
-jq -e '.hidden.count > 50 and .shrunk.inset > 50' whole.json >/dev/null ||
+# Hidden, smaller and larger features.
+drawn o.shp 103M --gap 1.5 --effort 0 --max-shift 0.3 --hide --hide-weight 1 --id-field id --inset 0.3 --enlarge \
+    --min-size 5
+jq -e '.hidden.count > 50 and .shrunk.inset > 40 and .enlarged > 50' whole.json >/dev/null ||
     fail "few are hidden or smaller: $(jq -c '.hidden, .shrunk' whole.json)"
 
 # Pairs between a least gap and the gap.

@@ -72,7 +72,7 @@ jq -e '.shortfall.pairs > 10 and .displacement.cost_alone > 1' eased.json >/dev/
 alike streets '7' --gap 4 --least-gap 1 --effort 0 --rows auto --max-shift 3 --barrier line.geojson,width-field=width,gap=0.5
 cp whole.json tight.json
 alike great '5' --gap 3 --least-gap 0.5 --effort 0.05 --max-shift 4 --barrier line.geojson,width-field=width,gap=2,least=0.1
-# Features are hidden or become smaller, of classes, in chains from shard to shard, in blocks of far members, and beside
+# Features are hidden, become smaller or larger, of classes, in chains from shard to shard, in blocks of far members, and beside
 # roads; the page says which.
 proof=
 alike chain '7' --gap 2 --effort 0 --max-shift 2 --hide --hierarchy-field class
@@ -84,7 +84,9 @@ alike streets '3' --gap 4 --effort 0 --max-shift 1 --hide --trim --inset 0.5,1 -
     --rigid-where 'fid % 7 = 0' --crossed trim --barrier line.geojson,width-field=width,gap=0.5
 jq -e '.shrunk.trimmed > 3 and .shrunk.inset > 10 and .shrunk.scaled + .shrunk.symbols > 30' whole.json >/dev/null ||
     fail "few are smaller: $(jq -c .shrunk whole.json)"
-alike clusters '6' --gap 4 --effort 0 --max-shift 1 --hide --block-field blk --fixed-where 'fid % 3 > 0' --rows auto
+alike clusters '6' --gap 4 --effort 0 --max-shift 1 --hide --block-field blk --fixed-where 'fid % 3 > 0' --rows auto \
+    --enlarge --min-size 12
+jq -e '.enlarged > 100' whole.json >/dev/null || fail "few are larger: $(jq -c .enlarged whole.json)"
 jq -e '.hidden.clauses > 100 and (.hidden.by_class | has("0") | not)' chain.json >/dev/null &&
     jq -e '.hidden.count > 10 and .hidden.components > 10' hidden.json >/dev/null ||
     fail "little is hidden: $(jq -c .hidden chain.json hidden.json)"

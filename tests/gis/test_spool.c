@@ -25,6 +25,7 @@
 enum { MOST = 3000 };
 
 typedef struct board {
+    const sunder_shape *given[MOST]; /* what some features were before they became larger: the shape before theirs */
     sunder_shape *shape[MOST];
     gis_spool_feature feature[MOST];
     char id[MOST][16];
@@ -97,6 +98,8 @@ static board *draw_board(size_t n)
             .id = rng_once_in(&random, 4) ? NULL : b->id[i],
             .rigid = rng_once_in(&random, 3),
         };
+        if (i && rng_once_in(&random, 3)) b->given[i] = b->shape[i - 1];
+        if (b->given[i]) b->feature[i].given = gis_spool_rings_of(b->given[i]);
     }
     return b;
 }
@@ -155,6 +158,21 @@ typedef struct reading {
     bool found[MOST];
 } reading;
 
+/* Is the shape before the feature became larger the one that was put? Its box is a part of that of the record. */
+static void join_given(const sunder_shape *put, const gis_spool_feature *feature, double box[4])
+{
+    sunder_shape *given;
+    gis_error error;
+    double own[4];
+    assert_true((put == NULL) == (feature->given.polygons == 0));
+    if (!put) return;
+    assert_true(gis_spool_rings_shape(&feature->given, &given, &error));
+    same_shape(put, given);
+    sunder_shape_box(given, own);
+    for (int c = 0; c < 4; c++) box[c] = c < 2 ? fmin(box[c], own[c]) : fmax(box[c], own[c]);
+    sunder_shape_free(given);
+}
+
 static bool see(void *user, const gis_spool_feature *feature, gis_error *error)
 {
     reading *r = user;
@@ -179,6 +197,7 @@ static bool see(void *user, const gis_spool_feature *feature, gis_error *error)
     r->features++;
     r->vertices += ring_end[poly_end[polygons - 1] - 1];
     sunder_shape_box(feature->demands.shape, box);
+    join_given(r->board->given[feature->index], feature, box);
     for (int k = 0; k < 2; k++) {
         r->box[k] = fmin(fmin(r->box[k], box[k]), feature->start[k]); /* NAN, if there is none, is ignored */
         r->box[k + 2] = fmax(fmax(r->box[k + 2], box[k + 2]), feature->start[k]);

@@ -28,6 +28,7 @@ typedef struct gis_joined {
     gis_sorted_results conflicts; /* by (a, b): one conflict each */
     gis_sorted_results pushes;    /* by (a, b): one push each */
     gis_sorted_results hidden;    /* by feature: the hidden ones */
+    gis_sorted_results larger;    /* by feature: a row of each that became larger, with the larger shape */
     gis_hiding hiding;            /* the sums of what is hidden, with the classes of: */
     sunder_hiding_class *class;   /* [hiding.classes] */
     size_t class_room;
@@ -55,6 +56,8 @@ void gis_joined_clear(gis_joined *joined);
  * those in chunks that are not in memory. */
 bool gis_joined_lists_make(gis_joined *out, gis_border_chunks *chunks, gis_part_result *held, const char *directory,
                            gis_error *error);
+/* Lists the features of the spool that became larger (joined_larger.c). */
+bool gis_joined_larger_make(gis_joined *joined, gis_spool *spool, const char *directory, gis_error *error);
 /* Joins the neighbours to rows, with the moves of the joined rows of features, and adds up what is about rows in the
  * summary (joined_rows.c). how: the options of the parts. Called when all lists are sorted. */
 bool gis_joined_rows_make(gis_joined *joined, const sunder_layer_options *how, gis_error *error);

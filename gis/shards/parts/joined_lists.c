@@ -386,6 +386,7 @@ void gis_joined_clear(gis_joined *joined)
     gis_sorted_results_clear(&joined->pushes);
     gis_sorted_results_clear(&joined->trees);
     gis_sorted_results_clear(&joined->hidden);
+    gis_sorted_results_clear(&joined->larger);
     free(joined->class);
     gis_sorted_results_clear(&joined->neighbours);
     sunder_row_list_free(&joined->row_list);

@@ -42,7 +42,7 @@ static bool take_feature(void *user, const gis_spool_feature *feature, gis_error
     looking *l = user;
     const int64_t block = feature->demands.block;
     double box[4];
-    sunder_shape_box(feature->demands.shape, box);
+    gis_spool_feature_box(feature, box);
     sunder_shape_free((sunder_shape *)feature->demands.shape);
     return (block < 0 || add_block(&l[0], block, box, error)) &&
            (feature->row == 0 || add_block(&l[1], feature->row, box, error));

@@ -28,12 +28,14 @@ static char *copy_of(const char *text)
 
 /* ---- Reading ----------------------------------------------------------------------------------------------------- */
 
-static bool is_near(const gis_part *p, const double box[4])
+static bool meets_any(const gis_boxes_list *boxes, const double box[4])
 {
-    for (size_t k = 0; k < p->boxes->n; k++)
-        if (gis_box_meets(p->boxes->box[k], box)) return true;
+    for (size_t k = 0; k < boxes->n; k++)
+        if (gis_box_meets(boxes->box[k], box)) return true;
     return false;
 }
+
+static bool is_near(const gis_part *p, const double box[4]) { return meets_any(p->boxes, box); }
 
 /* The pass in which the feature's block, and its row, came into the part; NULL: it has none. */
 static void find_passes(const gis_part *p, const gis_spool_feature *feature, unsigned *of[2])
@@ -64,12 +66,14 @@ static bool take_feature(void *user, const gis_spool_feature *feature, gis_error
 {
     gis_part *p = user;
     double box[4];
-    sunder_shape_box(feature->demands.shape, box);
+    gis_spool_feature_box(feature, box);
     const bool there = is_added(p, feature, is_near(p, box));
     if (there && gis_array_reserve(&p->item, &p->capacity, p->n + 1, sizeof *p->item)) {
         gis_part_loaded *to = &p->item[p->n++];
-        *to = (gis_part_loaded){*feature, p->wants(p->user, p->cell, feature->index)};
+        *to = (gis_part_loaded){*feature, NULL, p->wants(p->user, p->cell, feature->index)};
+        to->feature.given = (gis_spool_rings){0};
         to->feature.id = copy_of(feature->id);
+        if (feature->given.polygons && !gis_spool_rings_shape(&feature->given, &to->given, error)) return false;
         return !feature->id || to->feature.id || gis_no_memory(error);
     }
     sunder_shape_free((sunder_shape *)feature->demands.shape);
@@ -82,15 +86,17 @@ static int by_index(const void *a, const void *b)
     return (p->feature.index > q->feature.index) - (p->feature.index < q->feature.index);
 }
 
-/* May a feature in this box be added in this pass? */
-static bool has_others(const gis_part *p, const double box[4])
+/* Lists the boxes of the blocks and rows that came in the pass before. */
+static bool list_others(const gis_part *p, gis_boxes_list *others, gis_error *error)
 {
     const gis_layout *l = p->layout;
-    bool any = false;
-    for (size_t b = 0; b < l->blocks && !any; b++)
-        any = p->block[b] == p->pass - 1 && gis_box_meets(l->block[b].box, box);
-    for (size_t r = 0; r < l->rows && !any; r++) any = p->row[r] == p->pass - 1 && gis_box_meets(l->row[r].box, box);
-    return any;
+    bool ok = true;
+    others->n = 0;
+    for (size_t b = 0; p->pass && b < l->blocks && ok; b++)
+        if (p->block[b] == p->pass - 1) ok = gis_boxes_add(others, l->block[b].box, 0, error);
+    for (size_t r = 0; p->pass && r < l->rows && ok; r++)
+        if (p->row[r] == p->pass - 1) ok = gis_boxes_add(others, l->row[r].box, 0, error);
+    return ok;
 }
 
 static unsigned *not_in_any_pass(size_t n)
@@ -100,20 +106,24 @@ static unsigned *not_in_any_pass(size_t n)
     return pass;
 }
 
-static bool load_part(gis_part *p, gis_error *error)
+bool gis_part_load(gis_part *p, gis_error *error)
 {
     p->block = not_in_any_pass(p->layout->blocks);
     p->row = not_in_any_pass(p->layout->rows);
     if (!p->block || !p->row) return gis_no_memory(error);
-    for (p->pass = 0, p->more = true; p->more; p->pass++) {
+    gis_boxes_list others = {0};
+    bool done = true;
+    for (p->pass = 0, p->more = true; p->more && done; p->pass++) {
         p->more = false;
-        for (p->cell = 0; p->cell < gis_spool_cells(p->spool); p->cell++) {
+        done = list_others(p, &others, error);
+        for (p->cell = 0; p->cell < gis_spool_cells(p->spool) && done; p->cell++) {
             const double *box = gis_spool_cell_at(p->spool, p->cell)->box;
-            if ((p->pass ? has_others(p, box) : is_near(p, box)) &&
-                !gis_spool_read(p->spool, p->cell, take_feature, p, error))
-                return false;
+            if (p->pass ? meets_any(&others, box) : is_near(p, box))
+                done = gis_spool_read(p->spool, p->cell, take_feature, p, error);
         }
     }
+    free(others.box);
+    if (!done) return false;
     if (p->n) qsort(p->item, p->n, sizeof *p->item, by_index);
     return gis_barriers_load(&p->layout->barriers, (const double(*)[4])p->boxes->box, p->boxes->n, &p->barriers, error);
 }
@@ -204,6 +214,19 @@ static bool set_hiding(gis_part *p, gis_error *error)
     return done || gis_core_failed(error, "--hide", &why);
 }
 
+/* Tells the core which shapes features had before they became larger, if any did. */
+static bool set_originals(gis_part *p, gis_error *error)
+{
+    sunder_error why;
+    if (!p->layout->rules->enlarge) return true;
+    const sunder_shape **given = malloc((p->n + 1) * sizeof *given);
+    if (!given) return gis_no_memory(error);
+    for (size_t k = 0; k < p->n; k++) given[k] = p->item[k].given;
+    const bool done = sunder_layer_set_originals(p->layer, given, &why) == SUNDER_OK;
+    free((void *)given);
+    return done || gis_core_failed(error, "--enlarge", &why);
+}
+
 /* What the smaller shapes of features are made of: [n] each. */
 typedef struct rung_material {
     const sunder_shape **shape;
@@ -273,7 +296,7 @@ static bool separate_part(gis_part *p, gis_error *error)
     const bool made = sunder_layer_new(feature, p->n, &p->layer, &why) == SUNDER_OK;
     free(feature);
     if (made && (!set_sides(p, error) || !set_rows(p, error) || !gis_barriers_set(&p->barriers, p->layer, error) ||
-                 !set_hiding(p, error) || !set_levels(p, error)))
+                 !set_originals(p, error) || !set_hiding(p, error) || !set_levels(p, error)))
         return false;
     if (!made || sunder_layer_separate(p->layer, &options, &p->report, &why) != SUNDER_OK)
         return tell_failure(p, &why, error);
@@ -285,10 +308,11 @@ static bool separate_part(gis_part *p, gis_error *error)
     return !options.keep_trees || begin_lines(p, error);
 }
 
-static void clear_part(gis_part *p)
+void gis_part_clear(gis_part *p)
 {
     for (size_t k = 0; k < p->n; k++) {
         sunder_shape_free((sunder_shape *)p->item[k].feature.demands.shape);
+        sunder_shape_free(p->item[k].given);
         free((char *)p->item[k].feature.id);
     }
     free(p->item);
@@ -312,10 +336,10 @@ bool gis_part_separate(const gis_layout *layout, const gis_boxes_list *boxes, gi
                   .user = user,
                   .run = run,
                   .out = result};
-    bool done = load_part(&p, error);
+    bool done = gis_part_load(&p, error);
     if (done) warn_if_large(&p);
     done = done && separate_part(&p, error) && gis_part_fill_worlds(&p, error) && gis_part_fill_rows(&p, error) &&
            gis_part_fill_others(&p, error);
-    clear_part(&p);
+    gis_part_clear(&p);
     return done;
 }

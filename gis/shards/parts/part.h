@@ -62,6 +62,15 @@ bool gis_part_separate(const gis_layout *layout, const gis_boxes_list *boxes, gi
 bool gis_parts_separate(const gis_layout *layout, unsigned first, unsigned end, gis_part_result *result,
                         gis_error *error);
 
+/* Makes the features that meet the boxes larger by the rules of the layout, and adds the requested ones to a spool:
+ * with their larger shapes, and with the first feature of each block as its number. Adds boxes if blocks are larger
+ * than the part. *larger is increased by the number of features that grew. */
+bool gis_part_enlarge(const gis_layout *layout, gis_boxes_list *boxes, gis_part_wants *wants, const void *user,
+                      gis_spool_writer *to, size_t *larger, gis_error *error);
+/* The same for the spool's parts first to end - 1 (parts_separate.c). */
+bool gis_parts_enlarge(const gis_layout *layout, unsigned first, unsigned end, gis_spool_writer *to, size_t *larger,
+                       gis_error *error);
+
 bool gis_boxes_add(gis_boxes_list *list, const double box[4], double reach, gis_error *error);
 
 #endif

@@ -9,7 +9,8 @@
 
 /* A feature that was read; item[] is sorted by place in the input. */
 typedef struct gis_part_loaded {
-    gis_spool_feature feature; /* its id is owned */
+    gis_spool_feature feature; /* its id is owned; not its rings before it became larger, but: */
+    sunder_shape *given;       /* the shape that these make; NULL: it has not become larger */
     bool wanted;
 } gis_part_loaded;
 
@@ -38,6 +39,13 @@ typedef struct gis_part {
     unsigned run;
     gis_part_result *out;
 } gis_part;
+
+/* ---- part.c: the beginning and the end of a part
+ * ------------------------------------------------------------------ */
+
+/* Reads the features that meet the boxes, with all of their numbered blocks and rows, and the barriers. */
+bool gis_part_load(gis_part *p, gis_error *error);
+void gis_part_clear(gis_part *p);
 
 /* ---- part_result_fill.c: adds one item each from the part's report to its result
  * ---------------------------------- */

@@ -156,6 +156,25 @@ static void pass_by(belongings *all, size_t number)
     while (all->h < all->components && all->component[all->h].world == number) all->h++;
 }
 
+/* Adds what was seen at the shape that a feature of the world had before it became larger, unless that lies in the
+ * larger one: a barrier may cross the feature there. */
+static bool add_given(gis_part *p, size_t k, size_t number, gis_part_world *to, gis_error *error)
+{
+    sunder_footprint footprint = {.world = number};
+    double larger[4];
+    if (!p->item[k].given) return true;
+    sunder_shape_box(p->item[k].given, footprint.seen);
+    sunder_shape_box(p->item[k].feature.demands.shape, larger);
+    if (is_within(footprint.seen, larger)) return true;
+    gis_box_clear(footprint.read);
+    gis_box_clear(footprint.wrote);
+    if (!GIS_PART_MORE(p->out, footprint, footprints, 1, error)) return false;
+    p->out->footprint[p->out->footprints++] = footprint;
+    to->footprints++;
+    to->complete = to->complete && gis_part_knows(p, footprint.seen);
+    return true;
+}
+
 static bool add_world(gis_part *p, size_t number, belongings *all, gis_error *error)
 {
     size_t n;
@@ -174,6 +193,8 @@ static bool add_world(gis_part *p, size_t number, belongings *all, gis_error *er
     to.clusters_optimal = w->clusters_optimal;
     if (!GIS_PART_MORE(out, bound, bounds, w->bounds, error) || !add_footprints(p, w, &to, error)) return false;
     for (size_t k = 0; k < w->bounds; k++) out->bound[out->bounds++] = bound[w->bound + k];
+    for (size_t k = all->f; k < all->features && all->feature[k].world == number; k++)
+        if (!add_given(p, all->feature[k].at, number, &to, error)) return false;
     if (!add_members(p, all, number, error)) return false;
     for (size_t k = all->f; k < all->features && all->feature[k].world == number; k++)
         p->decided[all->feature[k].at] = to.complete;

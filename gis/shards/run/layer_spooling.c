@@ -6,6 +6,7 @@
 #include "base/array.h"
 #include "base/core_error.h"
 #include "base/message.h"
+#include "base/remove_tree.h"
 #include "disk/file.h"
 #include "geometry/gis_box.h"
 #include "layer/layer_checksum.h"
@@ -13,6 +14,7 @@
 #include "layer/output.h"
 #include "read/crs_units.h"
 #include "shards/run/barrier_spooling.h"
+#include "shards/run/spool_enlarging.h"
 
 #include <cpl_conv.h>
 #include <errno.h>
@@ -29,6 +31,7 @@ typedef struct spooling {
     gis_layer_input input;
     gis_layer_facts *facts;
     const char *directory;
+    char *given; /* the directory of the spool before features become larger; NULL: they do not */
     gis_spool_writer *writer;
     gis_spool_writer *aside; /* the spool of features that conflict with nothing; NULL: not begun */
     gis_disk_file status;
@@ -93,19 +96,32 @@ static bool id_text(const gis_layer_input *input, size_t i, char **copy, char nu
     return true;
 }
 
+/* Makes a directory within that of the spool, whose path the caller frees; NULL: it cannot be made. */
+static char *make_directory(const spooling *s, const char *name, gis_error *error)
+{
+    char *path = gis_disk_path(s->directory, name);
+    if (!path) gis_no_memory(error);
+    if (!path || mkdir(path, 0777) == 0 || errno == EEXIST) return path;
+    gis_fail(error, "%s: it cannot be made: %s", path, strerror(errno));
+    free(path);
+    return NULL;
+}
+
 /* The writer for features that conflict with nothing; created for the first of them. */
 static gis_spool_writer *open_aside(spooling *s, gis_error *error)
 {
     if (s->aside) return s->aside;
-    char *path = gis_disk_path(s->directory, GIS_SPOOL_ASIDE);
-    if (!path)
-        gis_no_memory(error);
-    else if (mkdir(path, 0777) != 0 && errno != EEXIST)
-        gis_fail(error, "%s: it cannot be made: %s", path, strerror(errno));
-    else
-        gis_spool_create(path, gis_source_extent(s->input.source), &s->aside, error);
+    char *path = make_directory(s, GIS_SPOOL_ASIDE, error);
+    if (path) gis_spool_create(path, gis_source_extent(s->input.source), &s->aside, error);
     free(path);
     return s->aside;
+}
+
+/* Opens the writer of the layer, in a directory of its own if features become larger. */
+static bool open_writer(spooling *s, gis_error *error)
+{
+    if (s->input.request->rules.enlarge && !(s->given = make_directory(s, "given", error))) return false;
+    return gis_spool_create(s->given ? s->given : s->directory, gis_source_extent(s->input.source), &s->writer, error);
 }
 
 static bool add_feature(spooling *s, size_t i, char **copy, gis_error *error)
@@ -233,8 +249,7 @@ static bool read_batches(spooling *s, const gis_layer_input_request *request, co
                          gis_error *error)
 {
     gis_layer_input *input = &s->input;
-    if (!gis_layer_begin(request, true, input, error) || !gis_layer_lengths(input, error) ||
-        !gis_spool_create(directory, gis_source_extent(input->source), &s->writer, error) ||
+    if (!gis_layer_begin(request, true, input, error) || !gis_layer_lengths(input, error) || !open_writer(s, error) ||
         !gis_disk_file_create(&s->status, directory, "status.part", error))
         return false;
     for (bool any = true; any;)
@@ -297,6 +312,7 @@ static bool finish_spools(spooling *s, unsigned shards, const char *directory, g
     fill_facts(s);
     say_what_is_known(s);
     return gis_spool_finish(s->writer, shards, settles ? settle_feature : NULL, s, error) &&
+           (!s->given || gis_spool_enlarge(&s->input, s->given, directory, &s->facts->enlarged, error)) &&
            (!s->aside || gis_spool_finish(s->aside, 1, NULL, NULL, error)) &&
            gis_disk_file_place(&s->status, directory, "status", error) && spool_barriers(s, directory, error);
 }
@@ -305,6 +321,8 @@ static void clear_spooling(spooling *s)
 {
     gis_spool_writer_free(s->writer);
     gis_spool_writer_free(s->aside);
+    if (s->given) gis_remove_tree(s->given);
+    free(s->given);
     gis_disk_file_close(&s->status);
     gis_block_keys_clear(&s->keys);
     gis_block_keys_clear(&s->rows);

@@ -26,7 +26,7 @@ typedef struct passing {
     gis_disk_file status;
     unsigned char *alone; /* of the current batch: what the file `status` has of each feature, in so many bytes: */
     size_t room, bytes;
-    bool any; /* joined.rows has a current item */
+    bool any, any_larger; /* joined.rows, and joined.larger, have a current item */
     size_t block;
     gis_far_moves far_moves;
 } passing;
@@ -52,15 +52,11 @@ static gis_feature_row row_alone(const passing *at, size_t i)
     return row;
 }
 
-/* Fills in the result of feature i of the batch. *shape: its shape, if it is another one; the caller frees it. */
-static bool fill_row(const passing *at, size_t i, const gis_part_result *one, gis_feature_row *to, sunder_shape **shape,
-                     gis_error *error)
+/* Fills in the shape of feature i of the batch, if the item has one. *shape: the shape; the caller frees it. */
+static bool fill_shape(const passing *at, size_t i, const gis_part_result *one, gis_feature_row *to,
+                       sunder_shape **shape, gis_error *error)
 {
     const gis_part_row *row = one->row;
-    to->dx = row->move[0];
-    to->dy = row->move[1];
-    to->status = row->status;
-    gis_far_moves_warn(&at->far_moves, at->input, i, row->move);
     if (row->now.polygons == 0) return true;
     if (!gis_part_make_shape(one, &row->now, shape, error)) return false;
     to->other = *shape;
@@ -69,6 +65,28 @@ static bool fill_row(const passing *at, size_t i, const gis_part_result *one, gi
     to->lost = row->lost;
     to->size = row->size;
     return true;
+}
+
+/* Fills in the result of feature i of the batch, and its shape. */
+static bool fill_row(const passing *at, size_t i, const gis_part_result *one, gis_feature_row *to, sunder_shape **shape,
+                     gis_error *error)
+{
+    const gis_part_row *row = one->row;
+    to->dx = row->move[0];
+    to->dy = row->move[1];
+    to->status = row->status;
+    gis_far_moves_warn(&at->far_moves, at->input, i, row->move);
+    return fill_shape(at, i, one, to, shape, error);
+}
+
+/* Fills in the larger shape of feature i of the batch, if it has one and no smaller one, and is not hidden. */
+static bool fill_larger(passing *at, size_t i, gis_feature_row *row, sunder_shape **shape, gis_error *error)
+{
+    gis_sorted_results *larger = &at->parts->joined.larger;
+    if (!at->any_larger || larger->head.first != gis_source_first(at->input->source) + i) return true;
+    const bool own = row->other || row->status == SUNDER_FEATURE_HIDDEN;
+    return (own || fill_shape(at, i, &larger->one, row, shape, error)) &&
+           gis_sorted_results_next(larger, &at->any_larger, error);
 }
 
 /* Visits a feature that is in this block, if it is in one. */
@@ -98,7 +116,7 @@ static bool pass_feature(passing *at, const gis_source *source, size_t i, gis_er
     }
     const gis_part_link *own = at->block < j->blocks && j->block[at->block].a == feature ? &j->block[at->block] : NULL;
     if (own) p->block_fid[at->block++] = gis_source_fid(source, i);
-    done = done && visit_feature(at, i, own, &row, error);
+    done = done && fill_larger(at, i, &row, &shape, error) && visit_feature(at, i, own, &row, error);
     sunder_shape_free(shape);
     return done;
 }
@@ -160,8 +178,10 @@ static bool visit_features(const gis_result *r, bool has_null, gis_feature_visit
     p->block_fid = malloc((p->joined.blocks + 1) * sizeof *p->block_fid);
     if (!p->block_fid) return gis_no_memory(error);
     gis_sorted_results_rewind(&p->joined.rows);
+    gis_sorted_results_rewind(&p->joined.larger);
     bool done = find_sound_part(p->spool, &at.far_moves, error) &&
                 gis_disk_file_open(&at.status, p->directory, "status", error) &&
+                gis_sorted_results_next(&p->joined.larger, &at.any_larger, error) &&
                 gis_sorted_results_next(&p->joined.rows, &at.any, error);
     while (done && any) {
         done = begin_batch(&at, input, &sums, error);
@@ -296,7 +316,9 @@ static bool visit_hidden(const gis_result *r, gis_hidden_visit *visit, void *use
 
 static void sum_hiding(const gis_result *r, gis_hiding *hiding)
 {
-    *hiding = ((const gis_shard_run *)r->of)->joined.hiding;
+    const gis_shard_run *p = r->of;
+    *hiding = p->joined.hiding;
+    hiding->enlarged = p->facts.enlarged;
 }
 
 /* The FID of one of the two features or barriers of the current push. */

@@ -10,7 +10,7 @@
 
 enum { STATUS_BUFFER = 1 << 16 };
 
-/* The place of the row of a feature that has another shape in the result. */
+/* The place of the row of a feature that has a smaller shape in the result, or is hidden. */
 typedef struct changed_row {
     size_t feature;
     uint64_t place;
@@ -28,6 +28,7 @@ typedef struct spool_view {
     changed_row *changed; /* by feature */
     size_t changes, change_room;
     uint64_t *barrier_place; /* [barriers] */
+    bool lends_given;        /* the shape before the feature became larger is requested */
     sunder_shape *lent, *lent_barrier;
     sunder_obstacle lines; /* of the barrier that was lent last */
     gis_text text;         /* the name that was requested last */
@@ -66,6 +67,7 @@ static bool take_feature(void *user, const gis_spool_feature *feature, gis_error
         gis_view_feature *to = &f->feature[feature->index];
         to->place = place_of(feature->place, f->aside);
         to->vertices = (uint32_t)sunder_shape_vertices(shape);
+        to->changed = feature->given.polygons > 0;
         if (to->vertices) sunder_shape_box(shape, to->box);
     }
     sunder_shape_free((sunder_shape *)shape);
@@ -95,11 +97,11 @@ static bool take_statuses(const spool_view *s, gis_view_feature *feature, size_t
     return done;
 }
 
-/* Notes that the feature of the current row has another shape. */
+/* Notes that the feature of the current row has a smaller shape, or is hidden and has that which was read. */
 static bool note_change(spool_view *s, gis_view_feature *feature, gis_error *error)
 {
     const gis_sorted_results *rows = &s->parts->joined.rows;
-    feature->changed = true;
+    feature->changed = feature->status != SUNDER_FEATURE_HIDDEN;
     if (!gis_array_reserve(&s->changed, &s->change_room, s->changes + 1, sizeof *s->changed))
         return gis_no_memory(error);
     s->changed[s->changes++] = (changed_row){(size_t)rows->head.first, gis_sorted_results_place(rows)};
@@ -119,7 +121,8 @@ static bool take_rows(spool_view *s, gis_view_feature *feature, gis_error *error
         if (rows->one.rows) {
             memcpy(to->move, rows->one.row->move, sizeof to->move);
             to->status = (uint8_t)rows->one.row->status;
-            if (rows->one.row->now.polygons && !note_change(s, to, error)) return false;
+            if ((rows->one.row->now.polygons || to->status == SUNDER_FEATURE_HIDDEN) && !note_change(s, to, error))
+                return false;
         } else {
             to->status = (uint8_t)gis_joined_status(joined, rows->one.still);
         }
@@ -243,10 +246,12 @@ static bool list_rows(void *of, const sunder_row **row, size_t *n, gis_error *er
 static bool lend_shape(void *user, const gis_spool_feature *feature, gis_error *error)
 {
     spool_view *s = user;
-    (void)error;
     sunder_shape_free(s->lent);
     s->lent = (sunder_shape *)feature->demands.shape;
-    return true;
+    if (!s->lends_given || feature->given.polygons == 0) return true;
+    sunder_shape_free(s->lent);
+    s->lent = NULL;
+    return gis_spool_rings_shape(&feature->given, &s->lent, error);
 }
 
 static int by_feature(const void *a, const void *b)
@@ -255,18 +260,21 @@ static int by_feature(const void *a, const void *b)
     return (p->feature > q->feature) - (p->feature < q->feature);
 }
 
-/* Lends the shape that the feature has instead of its own, if it does; else *lent becomes false. */
+/* Lends the smaller shape of the feature, if it has one; else *lent becomes false. A hidden feature has the shape that
+ * was read. */
 static bool lend_other_shape(spool_view *s, size_t feature, bool *lent, gis_error *error)
 {
     gis_sorted_results *rows = &s->parts->joined.rows;
     const changed_row key = {feature, 0};
     const changed_row *row = s->changes ? bsearch(&key, s->changed, s->changes, sizeof key, by_feature) : NULL;
-    *lent = row != NULL;
     if (!row) return true;
+    if (!gis_sorted_results_read_at(rows, row->place, error)) return false;
+    s->lends_given = rows->one.row->now.polygons == 0;
+    if (s->lends_given) return true;
+    *lent = true;
     sunder_shape_free(s->lent);
     s->lent = NULL;
-    return gis_sorted_results_read_at(rows, row->place, error) &&
-           gis_part_make_shape(&rows->one, &rows->one.row->now, &s->lent, error);
+    return gis_part_make_shape(&rows->one, &rows->one.row->now, &s->lent, error);
 }
 
 static bool lend_feature_shape(void *of, size_t feature, uint64_t place, gis_view_shape which, const sunder_shape **out,
@@ -274,6 +282,7 @@ static bool lend_feature_shape(void *of, size_t feature, uint64_t place, gis_vie
 {
     spool_view *s = of;
     bool lent = false;
+    s->lends_given = which == GIS_VIEW_READ;
     if (which == GIS_VIEW_NOW && !lend_other_shape(s, feature, &lent, error)) return false;
     if (!lent && !gis_spool_read_one(spool_of(s, place), place >> 1, lend_shape, s, error)) return false;
     *out = s->lent;

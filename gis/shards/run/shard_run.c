@@ -99,6 +99,7 @@ static void choose_options(gis_shard_run *p)
                                    .least_gap = p->facts.least_gap,
                                    .max_shift = p->facts.max_shift,
                                    .tolerance = p->facts.tolerance,
+                                   .blocks_given = p->request->rules.enlarge,
                                    .barrier_reach = p->facts.barrier_reach};
     p->layout.how = gis_layer_core_options(&input);
     p->layout.rules = &p->request->rules;
@@ -112,9 +113,10 @@ static const double row_gaps = 9;
 
 static bool open_spool(gis_shard_run *p, double memory, gis_error *error)
 {
-    const bool numbered = p->request->rules.block_field || p->request->rules.rows_field;
+    const gis_layer_rules *rules = &p->request->rules;
+    const bool numbered = rules->block_field || rules->rows_field || rules->enlarge;
     const bool done =
-        gis_rung_lengths_read(&p->request->rules, &p->facts.units, &p->lengths, error) &&
+        gis_rung_lengths_read(rules, &p->facts.units, &p->lengths, error) &&
         gis_spool_open(p->directory, &p->spool, error) &&
         (gis_spool_parts(p->spool) == parts_of(p->shards) ||
          gis_fail(error, "%s: its cells are assigned to other shards; make the plan anew", p->directory)) &&
@@ -183,7 +185,8 @@ bool gis_shard_run_open_source(gis_shard_run *parts, bool whole, gis_layer_input
     parts->whole = whole;
     again.source.batch = whole ? 0 : BATCH;
     again.source.facts = &parts->facts.source;
-    const bool done = gis_layer_begin(&again, true, out, error);
+    const bool done = gis_layer_begin(&again, true, out, error) &&
+                      gis_rung_lengths_read(&parts->request->rules, &parts->facts.units, &out->lengths, error);
     out->request = parts->request;
     out->n = parts->facts.source.features;
     out->gap = parts->facts.gap;
@@ -191,6 +194,7 @@ bool gis_shard_run_open_source(gis_shard_run *parts, bool whole, gis_layer_input
     out->max_shift = parts->facts.max_shift;
     out->tolerance = parts->facts.tolerance;
     out->barrier_reach = parts->facts.barrier_reach;
+    out->enlarged = parts->facts.enlarged;
     out->invalid = parts->facts.invalid;
     out->null = parts->facts.null;
     out->other = parts->facts.other;
@@ -338,7 +342,9 @@ bool gis_shard_run_join(gis_shard_run *parts, uint64_t options, sunder_layer_sum
 {
     gis_progress silent;
     begin_listening(parts, &silent);
-    const bool done = gis_shard_run_scratch(parts, error) && join_files(parts, options, error);
+    const bool done =
+        gis_shard_run_scratch(parts, error) && join_files(parts, options, error) &&
+        (!parts->request->rules.enlarge || gis_joined_larger_make(&parts->joined, parts->spool, parts->scratch, error));
     end_listening(parts);
     gis_layout_clear(&parts->layout); /* writing needs the memory */
     gis_memory_back();

@@ -18,6 +18,14 @@
 
 #include <stdint.h>
 
+/* The rings of a shape, as sunder_shape_given() has them. */
+typedef struct gis_spool_rings {
+    const double *xy;
+    const size_t *ring_end, *poly_end;
+    size_t polygons; /* 0: there is none */
+    bool repaired;
+} gis_spool_rings;
+
 typedef struct gis_spool_feature {
     size_t index;              /* place in the input, from 0 */
     int64_t fid;               /* OGRNullFID: it has none */
@@ -30,9 +38,16 @@ typedef struct gis_spool_feature {
     int64_t row;               /* number of its row of --rows FIELD, from 1 on; 0: none */
     sunder_hiding_cost hiding; /* what it costs to hide it; weight 0: nothing is hidden or smaller */
     bool rigid;                /* its shape never changes */
+    gis_spool_rings given;     /* the shape that it had before it became larger, borrowed; none if it did not */
     double reach;              /* its box is enlarged by this on all sides; 0 except for a barrier */
     uint64_t place;            /* offset of its record in the spool that it was read from */
 } gis_spool_feature;
+
+/* The box of the shape of its demands, and of the one that it had before it became larger; box[0] > box[2] if both are
+ * empty. */
+void gis_spool_feature_box(const gis_spool_feature *feature, double box[4]);
+gis_spool_rings gis_spool_rings_of(const sunder_shape *shape);
+bool gis_spool_rings_shape(const gis_spool_rings *rings, sunder_shape **out, gis_error *error);
 
 typedef struct gis_spool_cell {
     double box[4]; /* xmin, ymin, xmax, ymax of all its shapes; box[0] > box[2] if all of them are empty */

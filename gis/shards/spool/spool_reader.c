@@ -13,7 +13,7 @@ struct gis_spool {
     gis_disk_file file;
     size_t features, vertices;
     gis_spool_room records;
-    gis_polygons rings;
+    gis_polygons rings, given;
     size_t *line_end, line_room;
 };
 
@@ -67,6 +67,7 @@ void gis_spool_close(gis_spool *spool)
     gis_spool_index_clear(&spool->index);
     gis_disk_file_close(&spool->file);
     gis_polygons_clear(&spool->rings);
+    gis_polygons_clear(&spool->given);
     free(spool->line_end);
     free(spool->records.at);
     free(spool);
@@ -107,7 +108,8 @@ static bool visit_record(gis_spool *spool, uint64_t from, size_t at, gis_spool_v
         return gis_core_failed(error, spool->file.path, &why);
     feature.demands.shape = shape;
     feature.place = from + at;
-    if (!gis_spool_record_lines(record, &spool->line_end, &spool->line_room, &feature.lines, error)) {
+    if (!gis_spool_record_lines(record, &spool->line_end, &spool->line_room, &feature.lines, error) ||
+        !gis_spool_record_given(record, &spool->given, &feature.given, error)) {
         sunder_shape_free(shape);
         return false;
     }

@@ -3,6 +3,7 @@
 #include "shards/spool/spool_record.h"
 
 #include "base/array.h"
+#include "base/core_error.h"
 #include "disk/external_sort.h"
 
 #include <math.h>
@@ -28,13 +29,19 @@ enum {
     ROW = 1 << 9,
     HIDING = 1 << 10,
     RIGID = 1 << 11,
-    ALL = (1 << 12) - 1
+    GIVEN = 1 << 12,
+    ALL = (1 << 13) - 1
 };
 
 /* Number of lines and of their points, for a record with LINES. */
 typedef struct counts {
     uint32_t lines, points;
 } counts;
+
+/* Numbers of the shape before it became larger, for a record with GIVEN. */
+typedef struct given_counts {
+    uint32_t polygons, rings, vertices, repaired;
+} given_counts;
 
 static const size_t size_of[] = {0,
                                  0,
@@ -47,7 +54,8 @@ static const size_t size_of[] = {0,
                                  sizeof(uint64_t),
                                  sizeof(int64_t),
                                  2 * sizeof(int64_t),
-                                 0};
+                                 0,
+                                 sizeof(given_counts)};
 
 /* The offset of the data of the member `flag`; for ALL + 1, the end of all optional members. */
 static size_t place_of(const gis_spool_head *head, uint32_t flag)
@@ -72,8 +80,9 @@ static void put_member(unsigned char *record, const gis_spool_head *head, uint32
 /* Offsets of what follows the optional members. */
 typedef struct content {
     counts of_lines;
+    given_counts of_given;
     uint64_t id_bytes; /* including the NUL */
-    size_t xy, line_xy, ring_ends, line_ends, id, bytes;
+    size_t xy, line_xy, given_xy, ring_ends, line_ends, given_ends, id, bytes;
 } content;
 
 static bool has_ends(const gis_spool_head *head) { return head->rings != 1 || head->polygons != 1; }
@@ -82,9 +91,11 @@ static void lay_out(const gis_spool_head *head, content *c)
 {
     c->xy = place_of(head, ALL + 1);
     c->line_xy = c->xy + 2 * sizeof(double) * head->vertices;
-    c->ring_ends = c->line_xy + 2 * sizeof(double) * c->of_lines.points;
+    c->given_xy = c->line_xy + 2 * sizeof(double) * c->of_lines.points;
+    c->ring_ends = c->given_xy + 2 * sizeof(double) * c->of_given.vertices;
     c->line_ends = c->ring_ends + (has_ends(head) ? sizeof(uint32_t) * ((size_t)head->rings + head->polygons) : 0);
-    c->id = c->line_ends + sizeof(uint32_t) * c->of_lines.lines;
+    c->given_ends = c->line_ends + sizeof(uint32_t) * c->of_lines.lines;
+    c->id = c->given_ends + sizeof(uint32_t) * ((size_t)c->of_given.rings + c->of_given.polygons);
     c->bytes = padded_size(c->id + c->id_bytes);
 }
 
@@ -96,6 +107,7 @@ static bool find_content(const unsigned char *record, size_t left, gis_spool_hea
     memcpy(head, record, sizeof *head);
     if (head->bytes > left || head->has > ALL || place_of(head, ALL + 1) > head->bytes) return false;
     get_member(record, head, LINES, &c->of_lines, sizeof c->of_lines);
+    get_member(record, head, GIVEN, &c->of_given, sizeof c->of_given);
     get_member(record, head, ID, &c->id_bytes, sizeof c->id_bytes);
     if (c->id_bytes > head->bytes) return false;
     lay_out(head, c);
@@ -111,6 +123,35 @@ static unsigned char *put_ends(unsigned char *to, const size_t *end, size_t n)
     return to;
 }
 
+void gis_spool_feature_box(const gis_spool_feature *feature, double box[4])
+{
+    const gis_spool_rings *given = &feature->given;
+    const size_t rings = given->polygons ? given->poly_end[given->polygons - 1] : 0,
+                 vertices = rings ? given->ring_end[rings - 1] : 0;
+    sunder_shape_box(feature->demands.shape, box);
+    for (size_t k = 0; k < vertices; k++)
+        for (int c = 0; c < 2; c++) {
+            box[c] = fmin(box[c], given->xy[2 * k + (size_t)c]);
+            box[c + 2] = fmax(box[c + 2], given->xy[2 * k + (size_t)c]);
+        }
+}
+
+gis_spool_rings gis_spool_rings_of(const sunder_shape *shape)
+{
+    gis_spool_rings out = {.repaired = sunder_shape_repaired(shape)};
+    out.polygons = sunder_shape_given(shape, &out.xy, &out.ring_end, &out.poly_end);
+    return out;
+}
+
+bool gis_spool_rings_shape(const gis_spool_rings *rings, sunder_shape **out, gis_error *error)
+{
+    sunder_error why;
+    return sunder_shape_from_rings(rings->xy, rings->ring_end, rings->poly_end, rings->polygons,
+                                   rings->repaired ? SUNDER_VALIDITY_EVEN_ODD : SUNDER_VALIDITY_STRICT, out,
+                                   &why) == SUNDER_OK ||
+           gis_core_failed(error, "a shape before it became larger", &why);
+}
+
 /* The box of the shape (with the start of its arrow) and the lines, enlarged by the reach and rounded outward; box[0] >
  * box[2] if there is neither. */
 static void find_box(const gis_spool_feature *feature, size_t points, double box[4])
@@ -120,7 +161,7 @@ static void find_box(const gis_spool_feature *feature, size_t points, double box
     const sunder_shape *shape = feature->demands.shape;
     memcpy(box, points ? open : nothing, 4 * sizeof *box);
     if (shape && !sunder_shape_is_empty(shape)) {
-        sunder_shape_box(shape, box);
+        gis_spool_feature_box(feature, box);
         for (int c = 0; c < 4; c++)
             box[c] = c < 2 ? fmin(box[c], feature->start[c]) : fmax(box[c], feature->start[c - 2]);
     }
@@ -152,6 +193,22 @@ static bool same_box(const double a[4], const double b[4])
     return a[0] == b[0] && a[1] == b[1] && a[2] == b[2] && a[3] == b[3];
 }
 
+static given_counts count_given(const gis_spool_rings *given)
+{
+    given_counts out = {.polygons = (uint32_t)given->polygons, .repaired = given->repaired};
+    if (given->polygons) out.rings = (uint32_t)given->poly_end[given->polygons - 1];
+    if (out.rings) out.vertices = (uint32_t)given->ring_end[out.rings - 1];
+    return out;
+}
+
+static void put_given(unsigned char *record, const content *c, const gis_spool_rings *given)
+{
+    const given_counts *n = &c->of_given;
+    if (n->polygons == 0) return;
+    memcpy(record + c->given_xy, given->xy, 2 * (size_t)n->vertices * sizeof *given->xy);
+    put_ends(put_ends(record + c->given_ends, given->ring_end, n->rings), given->poly_end, n->polygons);
+}
+
 static uint32_t flags_of(const gis_spool_feature *feature, const content *c, bool other_box)
 {
     const sunder_feature *demands = &feature->demands;
@@ -160,7 +217,7 @@ static uint32_t flags_of(const gis_spool_feature *feature, const content *c, boo
     return (demands->fixed ? FIXED : 0) | (repaired ? REPAIRED : 0) | (demands->block != -1 ? BLOCK : 0) |
            (feature->area != 0 ? AREA : 0) | (started ? START : 0) | (feature->reach != 0 ? REACH : 0) |
            (other_box ? BOX : 0) | (c->of_lines.lines ? LINES : 0) | (feature->id ? ID : 0) | (feature->row ? ROW : 0) |
-           (feature->hiding.weight ? HIDING : 0) | (feature->rigid ? RIGID : 0);
+           (feature->hiding.weight ? HIDING : 0) | (feature->rigid ? RIGID : 0) | (c->of_given.polygons ? GIVEN : 0);
 }
 
 bool gis_spool_record_make(gis_spool_room *room, const gis_spool_feature *feature, gis_error *error)
@@ -172,6 +229,7 @@ bool gis_spool_record_make(gis_spool_room *room, const gis_spool_feature *featur
     const size_t points = lines ? feature->lines.line_end[lines - 1] : 0;
     const size_t rings = polygons ? poly_end[polygons - 1] : 0, vertices = rings ? ring_end[rings - 1] : 0;
     content c = {.of_lines = {(uint32_t)lines, (uint32_t)points},
+                 .of_given = count_given(&feature->given),
                  .id_bytes = feature->id ? strlen(feature->id) + 1 : 0};
     gis_spool_head head = {.index = feature->index,
                            .fid = feature->fid,
@@ -200,6 +258,8 @@ bool gis_spool_record_make(gis_spool_room *room, const gis_spool_feature *featur
     put_member(room->at, &head, ROW, &feature->row, sizeof feature->row);
     put_member(room->at, &head, HIDING, (int64_t[2]){feature->hiding.hierarchy, feature->hiding.weight},
                2 * sizeof(int64_t));
+    put_member(room->at, &head, GIVEN, &c.of_given, sizeof c.of_given);
+    put_given(room->at, &c, &feature->given);
     if (vertices) memcpy(room->at + c.xy, xy, 2 * vertices * sizeof *xy);
     if (points) memcpy(room->at + c.line_xy, feature->lines.xy, 2 * points * sizeof *xy);
     if (has_ends(&head)) put_ends(put_ends(room->at + c.ring_ends, ring_end, rings), poly_end, polygons);
@@ -285,6 +345,22 @@ bool gis_spool_record_lines(const unsigned char *record, size_t **end, size_t *c
     if (!take_ends(end, capacity, &from, c.of_lines.lines)) return gis_no_memory(error);
     const void *xy = record + c.line_xy;
     *out = (sunder_obstacle){.xy = xy, .line_end = *end, .lines = c.of_lines.lines};
+    return true;
+}
+
+bool gis_spool_record_given(const unsigned char *record, gis_polygons *rings, gis_spool_rings *out, gis_error *error)
+{
+    gis_spool_head head;
+    content c;
+    *out = (gis_spool_rings){0};
+    if (!find_content(record, (size_t)((const gis_sort_head *)(const void *)record)->bytes, &head, &c)) return true;
+    if (c.of_given.polygons == 0) return true;
+    const unsigned char *from = record + c.given_ends;
+    if (!take_ends(&rings->ring_end, &rings->ring_capacity, &from, c.of_given.rings) ||
+        !take_ends(&rings->poly_end, &rings->poly_capacity, &from, c.of_given.polygons))
+        return gis_no_memory(error);
+    const void *xy = record + c.given_xy;
+    *out = (gis_spool_rings){xy, rings->ring_end, rings->poly_end, c.of_given.polygons, c.of_given.repaired != 0};
     return true;
 }
 

@@ -40,6 +40,9 @@ bool gis_spool_record_feature(unsigned char *record, size_t left, gis_spool_feat
 /* The lines of a record. They point into the record and into *end, a buffer that grows to `capacity`. */
 bool gis_spool_record_lines(const unsigned char *record, size_t **end, size_t *capacity, sunder_obstacle *out,
                             gis_error *error);
+/* The rings of the shape that the feature had before it became larger; they point into the record and into `rings`, a
+ * reusable buffer. */
+bool gis_spool_record_given(const unsigned char *record, gis_polygons *rings, gis_spool_rings *out, gis_error *error);
 /* Makes the shape of a record; `rings` is a reusable buffer. */
 bool gis_spool_record_shape(const unsigned char *record, gis_polygons *rings, sunder_shape **out, sunder_error *why);
 
