@@ -389,31 +389,50 @@ static const unsigned char *set_value(OGRFeatureH feature, int i, OGRFieldType t
     }
 }
 
-/* Sets the FID, geometry and fields of a feature from the record. Returns false if out of memory. */
-static bool set_feature(gis_packed *packed, const unsigned char *record, OGRFeatureH feature)
+/* Sets the geometry of a feature from the record. Returns false if out of memory. */
+static bool set_geometry(gis_packed *packed, const unsigned char *record, OGRFeatureH feature)
 {
     size_t bytes;
-    const unsigned char *wkb = geometry_of(packed, record, &bytes), *at = place_of(record).values;
+    const unsigned char *wkb = geometry_of(packed, record, &bytes);
     OGRGeometryH geometry = NULL;
-    OGR_F_SetFID(feature, gis_packed_fid(record));
     if (!wkb || OGR_G_CreateFromWkb(wkb, packed->crs, &geometry, (int)bytes) != OGRERR_NONE) return false;
     OGR_F_SetGeometryDirectly(feature, geometry);
-    for (int i = 0; i < packed->fields; i++) at = set_value(feature, i, packed->type[i], at);
     return true;
+}
+
+/* Sets the FID and the fields of a feature from the record. */
+static void set_attributes(const gis_packed *packed, const unsigned char *record, OGRFeatureH feature)
+{
+    const unsigned char *at = place_of(record).values;
+    OGR_F_SetFID(feature, gis_packed_fid(record));
+    for (int i = 0; i < packed->fields; i++) at = set_value(feature, i, packed->type[i], at);
+}
+
+OGRFeatureH gis_packed_attributes(gis_packed *packed, const unsigned char *record)
+{
+    if (packed->made_of == record) return packed->made;
+    if (!packed->made) packed->made = OGR_F_Create(packed->definition);
+    if (!packed->made) return NULL;
+    if (packed->made_whole) OGR_F_SetGeometryDirectly(packed->made, NULL);
+    packed->made_whole = false;
+    packed->made_of = record;
+    set_attributes(packed, record, packed->made);
+    return packed->made;
 }
 
 OGRFeatureH gis_packed_feature(gis_packed *packed, const unsigned char *record)
 {
-    if (packed->made && packed->made_of == record) return packed->made;
-    if (!packed->made) packed->made = OGR_F_Create(packed->definition);
-    packed->made_of = packed->made && set_feature(packed, record, packed->made) ? record : NULL;
-    return packed->made_of ? packed->made : NULL;
+    if (!gis_packed_attributes(packed, record)) return NULL;
+    packed->made_whole = packed->made_whole || set_geometry(packed, record, packed->made);
+    return packed->made_whole ? packed->made : NULL;
 }
 
 OGRFeatureH gis_packed_copy(gis_packed *packed, const unsigned char *record)
 {
     OGRFeatureH feature = OGR_F_Create(packed->definition);
-    if (!feature || set_feature(packed, record, feature)) return feature;
+    if (!feature) return NULL;
+    set_attributes(packed, record, feature);
+    if (set_geometry(packed, record, feature)) return feature;
     OGR_F_Destroy(feature);
     return NULL;
 }

@@ -23,6 +23,7 @@ typedef struct gis_packed {
     size_t chunks, capacity, used, room; /* used, room: bytes of the last chunk */
     OGRFeatureH made;
     const unsigned char *made_of;
+    bool made_whole;            /* with its geometry */
     sunder_shape *const *shape; /* borrowed: the shapes from which records take their vertices */
     unsigned char *moved;       /* buffer for a geometry */
     size_t moved_room;
@@ -57,6 +58,8 @@ bool gis_packed_is_finite(const unsigned char *record);
 bool gis_packed_polygons(gis_packed *packed, const unsigned char *record, gis_polygonal_part *part, gis_error *error);
 /* Returns the GDAL feature of a record, valid until the next call; NULL if out of memory. */
 OGRFeatureH gis_packed_feature(gis_packed *packed, const unsigned char *record);
+/* The same, but the feature may be without its geometry, which takes most of the time. */
+OGRFeatureH gis_packed_attributes(gis_packed *packed, const unsigned char *record);
 /* Returns a new GDAL feature of a record, which the caller owns; NULL if out of memory. */
 OGRFeatureH gis_packed_copy(gis_packed *packed, const unsigned char *record);
 /* Returns the geometry as well-known binary, translated as by gis_geometry_translate(); valid until the next call. NULL

@@ -16,7 +16,7 @@ bool gis_id_value(const gis_layer_input *input, size_t i, char **copy, gis_value
 {
     *value = (gis_value){.kind = GIS_NULL};
     if (input->id_field < 0) return true;
-    OGRFeatureH feature = gis_source_feature(input->source, i);
+    OGRFeatureH feature = gis_source_attributes(input->source, i);
     if (!OGR_F_IsFieldSetAndNotNull(feature, input->id_field)) return true;
     switch (gis_id_type(input)) {
     case OFTInteger64:

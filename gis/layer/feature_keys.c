@@ -28,7 +28,7 @@ int gis_feature_key_field(const gis_layer_input *input)
 char *gis_feature_key_of(const gis_layer_input *input, size_t i, int fid_field)
 {
     const int field = input->id_field >= 0 ? input->id_field : fid_field;
-    if (field >= 0) return gis_field_key(gis_source_feature(input->source, i), field);
+    if (field >= 0) return gis_field_key(gis_source_attributes(input->source, i), field);
     char text[32];
     snprintf(text, sizeof text, CPL_FRMT_GIB, gis_source_fid(input->source, i));
     char *copy = malloc(strlen(text) + 1);

@@ -6,7 +6,7 @@
 void gis_feature_name(const gis_layer_input *input, size_t i, char *text, size_t size)
 {
     GIntBig fid = gis_source_fid(input->source, i);
-    OGRFeatureH feature = input->id_field >= 0 ? gis_source_feature(input->source, i) : NULL;
+    OGRFeatureH feature = input->id_field >= 0 ? gis_source_attributes(input->source, i) : NULL;
     bool has_id = feature && OGR_F_IsFieldSetAndNotNull(feature, input->id_field);
     const gis_subject subject = {
         NULL, gis_source_name(input->source),      fid != OGRNullFID,

@@ -19,7 +19,7 @@ static int64_t weight_of(gis_weighting by, double area)
 /* The value of --hierarchy-field of feature i; NAN if it is null. */
 static double class_value(const gis_layer_input *input, size_t i)
 {
-    OGRFeatureH feature = gis_source_feature(input->source, i);
+    OGRFeatureH feature = gis_source_attributes(input->source, i);
     return gis_field_is_blank(feature, input->hierarchy_field) ? NAN
                                                                : gis_field_number(feature, input->hierarchy_field);
 }
@@ -37,7 +37,7 @@ bool gis_layer_check_class(const gis_layer_input *input, size_t i, gis_error *er
 {
     if (input->hierarchy_field < 0 || input->feature[i].ignored) return true;
     const double value = class_value(input, i);
-    if (gis_field_is_blank(gis_source_feature(input->source, i), input->hierarchy_field) ||
+    if (gis_field_is_blank(gis_source_attributes(input->source, i), input->hierarchy_field) ||
         (value >= 0 && value == floor(value) && value < GIS_LAST_CLASS))
         return true;
     return gis_layer_wrong_number(input, i, input->hierarchy_field, "class", "a whole number, 0 or more", error);
@@ -47,7 +47,7 @@ bool gis_layer_mark_hidden(gis_layer_input *input, gis_error *error)
 {
     const int field = input->hidden_field;
     for (size_t i = 0; field >= 0 && i < input->n; i++) {
-        OGRFeatureH feature = gis_source_feature(input->source, i);
+        OGRFeatureH feature = gis_source_attributes(input->source, i);
         if (!gis_layer_check_class(input, i, error)) return false;
         if (gis_field_is_blank(feature, field) || gis_field_number(feature, field) == 0) continue;
         if (gis_layer_hiding_cost(input, i).hierarchy) input->feature[i].ignored = true;

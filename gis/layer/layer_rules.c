@@ -84,7 +84,7 @@ bool gis_layer_number_blocks(gis_layer_input *input, gis_block_keys *keys, gis_e
 {
     const int field = input->block_field;
     for (size_t i = 0; field >= 0 && i < input->n; i++) {
-        OGRFeatureH feature = gis_source_feature(input->source, i);
+        OGRFeatureH feature = gis_source_attributes(input->source, i);
         if (gis_field_is_blank(feature, field)) continue;
         char *key = gis_field_key(feature, field);
         if (!key) return gis_no_memory(error);
@@ -110,7 +110,7 @@ bool gis_layer_number_rows(gis_layer_input *input, gis_block_keys *keys, gis_err
     input->row = malloc((input->n + 1) * sizeof *input->row);
     bool ok = input->row != NULL || gis_no_memory(error);
     for (size_t i = 0; ok && i < input->n; i++) {
-        OGRFeatureH feature = gis_source_feature(input->source, i);
+        OGRFeatureH feature = gis_source_attributes(input->source, i);
         input->row[i] = -1;
         if (gis_field_is_blank(feature, field)) continue;
         char *key = gis_field_key(feature, field);
@@ -131,7 +131,7 @@ bool gis_layer_wrong_number(const gis_layer_input *input, size_t i, int field, c
                             gis_error *error)
 {
     char who[GIS_WHO_SIZE], held[GIS_FIELD_TEXT_SIZE];
-    OGRFeatureH feature = gis_source_feature(input->source, i);
+    OGRFeatureH feature = gis_source_attributes(input->source, i);
     gis_feature_name(input, i, who, sizeof who);
     gis_field_text(feature, field, held);
     return gis_fail(error, "%s: the %s in %s is %s; it must be %s", who, what,
@@ -143,7 +143,7 @@ bool gis_layer_limits(gis_layer_input *input, gis_error *error)
 {
     const int field = input->limit_field;
     for (size_t i = 0; field >= 0 && i < input->n; i++) {
-        OGRFeatureH feature = gis_source_feature(input->source, i);
+        OGRFeatureH feature = gis_source_attributes(input->source, i);
         char who[GIS_WHO_SIZE];
         if (input->feature[i].ignored || gis_field_is_blank(feature, field)) continue;
         gis_length limit = {gis_field_number(feature, field), GIS_LAYER_UNIT};
@@ -196,7 +196,7 @@ bool gis_layer_weigh_by_field(gis_layer_input *input, gis_error *error)
 {
     const int field = input->weight_field;
     for (size_t i = 0; field >= 0 && i < input->n; i++) {
-        OGRFeatureH feature = gis_source_feature(input->source, i);
+        OGRFeatureH feature = gis_source_attributes(input->source, i);
         if (input->feature[i].ignored || gis_field_is_blank(feature, field)) continue;
         double weight = gis_field_number(feature, field);
         if (!gis_layer_is_weight(weight))

@@ -13,7 +13,7 @@
 static bool take_fields(const gis_layer_input *input, size_t i, double move[2], gis_error *error)
 {
     for (int c = 0; c < 2; c++) {
-        OGRFeatureH feature = gis_source_feature(input->source, i);
+        OGRFeatureH feature = gis_source_attributes(input->source, i);
         const int field = input->prefer_field[c];
         char who[GIS_WHO_SIZE];
         if (gis_field_is_blank(feature, field)) continue;

@@ -62,7 +62,7 @@ static bool open_result(reading *r, gis_error *error)
 static bool take_move(const reading *r, size_t was, double move[2], gis_error *error)
 {
     for (int c = 0; c < 2; c++) {
-        OGRFeatureH feature = gis_source_feature(r->before.source, was);
+        OGRFeatureH feature = gis_source_attributes(r->before.source, was);
         if (gis_field_is_blank(feature, r->move_field[c])) continue;
         move[c] = gis_field_number(feature, r->move_field[c]);
         if (!isfinite(move[c]))
@@ -88,7 +88,7 @@ static bool match_features(reading *r, gis_error *error)
         out->of[i] = found->feature;
         r->matched[found->feature] = true;
         ok = take_move(r, found->feature, out->move + 2 * i, error);
-        OGRFeatureH feature = gis_source_feature(r->before.source, found->feature);
+        OGRFeatureH feature = gis_source_attributes(r->before.source, found->feature);
         if (r->block_field >= 0 && !gis_field_is_blank(feature, r->block_field))
             r->block[i] = (int64_t)gis_field_number(feature, r->block_field);
     }

@@ -105,7 +105,7 @@ static bool compare_points(const comparison *c, size_t i, size_t was, bool *same
 static bool was_shaped(const comparison *c, size_t was)
 {
     if (c->level_field < 0 && c->cut_field < 0) return false;
-    OGRFeatureH feature = gis_source_feature(c->before->source, was);
+    OGRFeatureH feature = gis_source_attributes(c->before->source, was);
     return (c->level_field >= 0 && OGR_F_GetFieldAsInteger(feature, c->level_field) != 0) ||
            (c->cut_field >= 0 && OGR_F_GetFieldAsDouble(feature, c->cut_field) != 0);
 }

@@ -94,6 +94,8 @@ size_t gis_source_count(const gis_source *source);
 /* Feature i in reading order, with geometry and attributes; borrowed, must not be changed. In a packed source it is
  * valid until the next call. */
 OGRFeatureH gis_source_feature(const gis_source *source, size_t i);
+/* The same, for a caller that needs its attributes and its FID alone: it may be without its geometry. */
+OGRFeatureH gis_source_attributes(const gis_source *source, size_t i);
 /* The geometry of feature i; NULL if it has none. */
 OGRGeometryH gis_source_geometry(const gis_source *source, size_t i);
 /* Is feature i packed? Then gis_source_polygons() may be called by several threads at once, until

@@ -368,6 +368,12 @@ OGRFeatureH gis_source_feature(const gis_source *source, size_t i)
     return read.feature ? read.feature : gis_packed_feature(source->packed, read.record);
 }
 
+OGRFeatureH gis_source_attributes(const gis_source *source, size_t i)
+{
+    const gis_read_feature read = read_of(source, i);
+    return read.feature ? read.feature : gis_packed_attributes(source->packed, read.record);
+}
+
 OGRGeometryH gis_source_geometry(const gis_source *source, size_t i)
 {
     return OGR_F_GetGeometryRef(gis_source_feature(source, i));
