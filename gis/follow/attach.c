@@ -52,8 +52,7 @@ static candidate *candidate_of(holders *h, size_t target)
 static bool look_for_holders(void *user, size_t target)
 {
     holders *h = user;
-    const sunder_shape *home = h->targets->target[target].home;
-    const int side = home ? sunder_shape_locate(home, &h->at) : -1;
+    const int side = gis_follow_side(&h->targets->target[target], &h->at);
     if (side < 0) return true;
     h->any = true;
     candidate *c = candidate_of(h, target);

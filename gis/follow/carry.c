@@ -8,7 +8,8 @@
  * in a corner that is not very sharp, one or two steps are enough. */
 enum { MOST_STEPS = 12 };
 
-/* The member of a group that held a vertex: one that has it in its interior before one that has it on its boundary. */
+/* The member of a group that held a vertex: one whose vertex it was, else one that has it in its interior, else one that
+ * has it on its boundary. */
 typedef struct holding {
     const gis_follow_targets *targets;
     size_t group, holder;
@@ -21,12 +22,13 @@ static bool look_for_holder(void *user, size_t i)
     holding *h = user;
     const gis_follow_target *target = &h->targets->target[i];
     if (target->group != h->group || !target->home) return true;
-    const int side = sunder_shape_locate(target->home, &h->at);
-    if (side > h->side) {
+    const bool was_vertex = gis_follow_was_vertex(target, &h->at);
+    const int side = was_vertex ? 0 : sunder_shape_locate(target->home, &h->at);
+    if (was_vertex || side > h->side) {
         h->side = side;
         h->holder = i;
     }
-    return h->side < 1;
+    return !was_vertex;
 }
 
 /* x + d = *sum + *rest exactly, unless it overflows (Knuth's two-sum). */

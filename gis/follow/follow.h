@@ -84,10 +84,18 @@ void gis_follow_targets_clear(gis_follow_targets *targets);
 bool gis_follow_near(const gis_follow_targets *targets, const double box[4], double reach,
                      bool (*look)(void *user, size_t target), void *user, gis_error *error);
 
+/* Was a place a vertex of a target: does the rounded move take it to a vertex of `now`? Home is the exact inverse of
+ * the move, while the rounded move made `now`, so the vertices at home may differ from it in the last place. */
+bool gis_follow_was_vertex(const gis_follow_target *target, const sunder_point *at);
+/* Where a place was with respect to a target at home, as sunder_shape_locate(): 0 for a vertex, as above; -1 if the
+ * target has no polygons. */
+int gis_follow_side(const gis_follow_target *target, const sunder_point *at);
+
 /* attach.c: finds the group of each feature of INPUT. */
 bool gis_follow_attach(gis_follow *follow, gis_progress *progress, gis_error *error);
 /* carry.c: the new place *to of a vertex of a feature that belongs to the group of `target`: the nearest doubles that
- * are inside the group if the vertex was (then, if none are found, *kept becomes false); a function of the vertex and
+ * are inside the group if the vertex was (then, if none are found, *kept becomes false); that of a vertex of the group,
+ * if it was this vertex; a function of the vertex and
  * the group alone, so that vertices that are shared stay shared. */
 bool gis_follow_carry(const gis_follow_targets *targets, size_t target, const double from[2], double to[2], bool *kept,
                       gis_error *error);

@@ -163,6 +163,14 @@ static void box_of(const gis_follow_target *target, double box[4])
     }
 }
 
+/* By how much a vertex at home may be off the one that the move was rounded for. */
+static double rounding_of(const gis_follow_target *target, const double box[4])
+{
+    double most = 0;
+    for (int k = 0; k < 4; k++) most = fmax(most, fmax(fabs(box[k]), fabs(box[k] + target->move[k & 1])));
+    return nextafter(most, INFINITY) - most;
+}
+
 static bool make_tree(gis_follow_targets *out, gis_error *error)
 {
     CPLRectObj all = {INFINITY, INFINITY, -INFINITY, -INFINITY};
@@ -171,6 +179,8 @@ static bool make_tree(gis_follow_targets *out, gis_error *error)
     for (size_t i = 0; i < out->n; i++) {
         double *box = out->box + 4 * i;
         box_of(&out->target[i], box);
+        const double rounding = box[0] <= box[2] ? rounding_of(&out->target[i], box) : 0;
+        for (int k = 0; k < 4; k++) box[k] += k < 2 ? -rounding : rounding;
         all = (CPLRectObj){fmin(all.minx, box[0]), fmin(all.miny, box[1]), fmax(all.maxx, box[2]),
                            fmax(all.maxy, box[3])};
     }
@@ -206,6 +216,25 @@ bool gis_follow_near(const gis_follow_targets *targets, const double box[4], dou
     }
     CPLFree(found);
     return true;
+}
+
+bool gis_follow_was_vertex(const gis_follow_target *target, const sunder_point *at)
+{
+    const double *xy;
+    const size_t *ring_end, *poly_end;
+    if (!target->now) return false;
+    const size_t polygons = sunder_shape_given(target->now, &xy, &ring_end, &poly_end);
+    const size_t vertices = polygons ? ring_end[poly_end[polygons - 1] - 1] : 0;
+    const double to[2] = {at->x + target->move[0], at->y + target->move[1]};
+    for (size_t k = 0; k < vertices; k++)
+        if (xy[2 * k] == to[0] && xy[2 * k + 1] == to[1]) return true;
+    return false;
+}
+
+int gis_follow_side(const gis_follow_target *target, const sunder_point *at)
+{
+    if (gis_follow_was_vertex(target, at)) return 0;
+    return target->home ? sunder_shape_locate(target->home, at) : -1;
 }
 
 /* ------------------------------------------------------------------------------------------------------------------ */

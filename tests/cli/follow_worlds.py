@@ -1,11 +1,14 @@
 """Points that go along with houses: follow_worlds.py make LAYER.gpkg NAME POINTS.gpkg SEED N
                                        follow_worlds.py ask MOVED.gpkg NAME POINTS.gpkg FOLLOWED.gpkg
+                                       follow_worlds.py corners LAYER.gpkg NAME CORNERS.gpkg
+                                       follow_worlds.py ask_corners MOVED.gpkg NAME CORNERS.gpkg FOLLOWED.gpkg
 
 `make` puts N points into and onto the houses of a layer: anywhere inside, on their corners, at the doubles about a
 point of a wall, and beside houses. `ask` decides in rationals, for the houses before and after, which points lie where,
 and demands of the layer that follow wrote: what was inside (on the boundary) of a house is inside (inside or on the
 boundary) of it now, and within a few doubles of its exact place; all others did not move; points at one place that go
-with one house are at one place."""
+with one house are at one place. What the rounded move takes to a corner of a house was this corner. `corners` makes a
+point of each corner, and `ask_corners` demands that each is the same corner of the moved house, to the bit."""
 
 import math
 import random
@@ -47,6 +50,39 @@ def side(rings, at):
             if (ax > at[0]) != (bx > at[0]):
                 inside ^= ay + (at[0] - ax) / (bx - ax) * (by - ay) > at[1]
     return 1 if inside else -1
+
+
+def is_corner(house, at):
+    rings, move = house
+    to = tuple(Fraction(at[k] + float(move[k])) for k in (0, 1))
+    return any(to == corner for ring in rings for corner in ring)
+
+
+def corners_of(path, name):
+    data = ogr.Open(path)
+    layer = data.GetLayerByName(name)
+    found = [p[:2] for feature in layer for ring in rings_of(feature.GetGeometryRef()) for p in ring]
+    return found, layer.GetSpatialRef().ExportToWkt()
+
+
+def make_corners(path, name, out):
+    found, crs = corners_of(path, name)
+    made = ogr.GetDriverByName("GPKG").CreateDataSource(out)
+    points = made.CreateLayer("points", osr.SpatialReference(crs), ogr.wkbPoint)
+    made.StartTransaction()
+    for x, y in found:
+        feature, point = ogr.Feature(points.GetLayerDefn()), ogr.Geometry(ogr.wkbPoint)
+        point.AddPoint_2D(x, y)
+        feature.SetGeometry(point)
+        points.CreateFeature(feature)
+    made.CommitTransaction()
+
+
+def ask_corners(moved, name, _, after):
+    wanted, _ = corners_of(moved, name)
+    data = ogr.Open(after)
+    got = [f.GetGeometryRef().GetPoint_2D() for f in data.GetLayer(0)]
+    print(len(got), "corners,", sum(a != b for a, b in zip(wanted, got)) + abs(len(wanted) - len(got)), "wrong")
 
 
 def make(path, name, out, seed, n):
@@ -98,7 +134,7 @@ def ask(moved, name, before, after):
         p, q = was.pop(feature.GetFID()), feature.GetGeometryRef().GetPoint_2D()
         at, to = [Fraction(c) for c in p], [Fraction(c) for c in q]
         near = boxes.get((math.floor(p[0] / 20), math.floor(p[1] / 20)), [])
-        sides = {fid: side(homes[fid], at) for fid in near}
+        sides = {fid: 0 if is_corner(houses[fid], p) else side(homes[fid], at) for fid in near}
         best = max(sides.values(), default=-1)
         owner, status = feature.GetField("sunder_to"), feature.GetField("sunder_st")
         count[best] += 1
@@ -123,4 +159,4 @@ def ask(moved, name, before, after):
 if sys.argv[1] == "make":
     make(sys.argv[2], sys.argv[3], sys.argv[4], int(sys.argv[5]), int(sys.argv[6]))
 else:
-    ask(*sys.argv[2:6])
+    {"ask": ask, "corners": make_corners, "ask_corners": ask_corners}[sys.argv[1]](*sys.argv[2:])
