@@ -6,6 +6,7 @@
 #include "commands/commands.h"
 #include "commands/config.h"
 #include "commands/resolve.h"
+#include "sheet/sheet.h"
 #include "sunder.h"
 
 #include <cpl_error.h>
@@ -74,12 +75,18 @@ static bool begin_messages(const gis_options *options, gis_error *error)
 static int run_command(const gis_command *command, int argc, char **argv)
 {
     gis_options options;
+    gis_sheet sheet = {0};
     gis_error error;
     int status;
     if (!gis_options_parse(command, argc, argv, &options, &error)) {
         status = gis_say_failure(&error);
     } else if (options.given[OPT_HELP]) {
         gis_help_command(command);
+        status = GIS_DONE;
+    } else if (!gis_sheet_apply(&options, &sheet, &error)) {
+        status = gis_say_failure(&error);
+    } else if (options.given[OPT_PRINT_SPEC]) {
+        gis_sheet_print(&sheet);
         status = GIS_DONE;
     } else if (!begin_messages(&options, &error)) {
         status = gis_say_failure(&error);
@@ -91,6 +98,7 @@ static int run_command(const gis_command *command, int argc, char **argv)
         GDALDestroy();
     }
     gis_options_clear(&options);
+    gis_sheet_clear(&sheet);
     return status;
 }
 
@@ -168,6 +176,9 @@ int main(int argc, char **argv)
     } else if (strcmp(first, "--options-json") == 0) {
         gis_error error;
         status = gis_options_json(&error) ? GIS_DONE : gis_say_failure(&error);
+    } else if (strcmp(first, "--spec-schema") == 0) {
+        gis_error error;
+        status = gis_sheet_print_schema(&error) ? GIS_DONE : gis_say_failure(&error);
     } else if (strcmp(first, "--help") == 0 || strcmp(first, "-h") == 0) {
         gis_help_program();
     } else {

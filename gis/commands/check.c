@@ -208,6 +208,7 @@ static void json_check(gis_json *out, const check_run *run)
     gis_json_conflict_counts(out, &run->summary.before);
     if (run->request.rules.has_least_gap) json_tight(out, run);
     if (run->options->given[OPT_BEFORE]) json_moves(out, &run->moves);
+    gis_json_sheet(out, run->options);
     gis_json_close(out, '}');
     gis_json_raw(out, "\n");
 }

@@ -35,6 +35,14 @@ void gis_json_conflict_counts(gis_json *out, const sunder_conflict_counts *count
     gis_json_close(out, '}');
 }
 
+void gis_json_sheet(gis_json *out, const gis_options *options)
+{
+    if (!options->sheet) return;
+    gis_json_line(out);
+    gis_json_key(out, "spec");
+    gis_json_raw(out, options->sheet);
+}
+
 bool gis_any_conflict(const sunder_conflict_counts *counts)
 {
     return counts->overlap || counts->too_close || counts->barrier || counts->barrier_drawn || counts->barrier_near ||

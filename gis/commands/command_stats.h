@@ -10,6 +10,8 @@
 void gis_json_seconds(gis_json *out, const char *key, double seconds);
 void gis_json_operations(gis_json *out, const sunder_counts *counts);
 void gis_json_conflict_counts(gis_json *out, const sunder_conflict_counts *counts);
+/* Adds the sheet of --spec, with the other options in it, if there is one. */
+void gis_json_sheet(gis_json *out, const gis_options *options);
 
 /* Returns whether there is any conflict, not counting those within blocks. */
 bool gis_any_conflict(const sunder_conflict_counts *counts);

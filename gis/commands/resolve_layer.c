@@ -1,6 +1,7 @@
 /* resolve_layer.c: the request of a layer that is separated, checked or dilated, with its rules and barriers. */
 #include "commands/resolve_common.h"
 
+#include "layer/gap_rules.h"
 #include "read/source_files.h"
 
 #include <stdlib.h>
@@ -144,11 +145,24 @@ static bool check_preferred(const gis_options *options, gis_error *error)
     return true;
 }
 
+/* Refuses what does not know gaps by classes. */
+static bool check_classes(const gis_options *options, gis_error *error)
+{
+    static const gis_option_id not_with[] = {OPT_PROOF, OPT_MAX_MEMORY};
+    for (size_t k = 0; k < sizeof not_with / sizeof *not_with && options->gap_classes; k++)
+        if (options->given[not_with[k]])
+            return gis_fail_usage(error, "--spec: gaps that depend on classes: not with %s",
+                                  gis_option_table[not_with[k]].names);
+    return !options->gap_classes || options->command->bit != GIS_PLAN ||
+           gis_fail_usage(error, "--spec: gaps that depend on classes: not in a plan");
+}
+
 static bool resolve_rules(const gis_options *options, gis_layer_rules *out, gis_error *error)
 {
     unsigned weighting;
     *out = (gis_layer_rules){
         .gap = gis_resolve_length(options, OPT_GAP),
+        .classes = options->gap_classes,
         .least_gap = gis_resolve_length(options, OPT_LEAST_GAP),
         .max_shift = gis_resolve_length(options, OPT_MAX_SHIFT),
         .touch_tolerance = gis_resolve_length(options, OPT_TOUCH_TOLERANCE),
@@ -169,8 +183,8 @@ static bool resolve_rules(const gis_options *options, gis_layer_rules *out, gis_
     out->core.threads = gis_resolve_threads(options);
     if (!gis_resolve_choice(options, OPT_WEIGHT, weighting_word, &weighting, error)) return false;
     out->weighting = (gis_weighting)weighting;
-    return check_preferred(options, error) && resolve_rows(options, out, error) && resolve_room(options, out, error) &&
-           resolve_stiffness(options, out->core.row_stiffness, error) &&
+    return check_preferred(options, error) && check_classes(options, error) && resolve_rows(options, out, error) &&
+           resolve_room(options, out, error) && resolve_stiffness(options, out->core.row_stiffness, error) &&
            resolve_ease(options, &out->core.ease, error) && resolve_contained(options, &out->core.contained, error);
 }
 
@@ -208,7 +222,7 @@ static bool resolve_least_gaps(const gis_options *options, gis_layer_input_reque
 {
     gis_layer_rules *rules = &out->rules;
     rules->has_least_gap = options->given[OPT_LEAST_GAP];
-    if (rules->has_least_gap && !options->given[OPT_GAP])
+    if (rules->has_least_gap && !options->given[OPT_GAP] && !rules->classes)
         return gis_fail_usage(error, "--least-gap %s: there is no --gap, which pairs keep if it pays",
                               options->text[OPT_LEAST_GAP]);
     for (size_t k = 0; k < out->barriers; k++) {
@@ -219,6 +233,8 @@ static bool resolve_least_gaps(const gis_options *options, gis_layer_input_reque
             return gis_fail_usage(error, "--barrier %s: least=%s: there is neither gap= nor --gap", barrier->dataset,
                                   barrier->least.text);
     }
+    for (size_t k = 0; rules->classes && k < rules->classes->rules; k++)
+        rules->has_least_gap = rules->has_least_gap || rules->classes->rule[k].least.text;
     if (!rules->has_least_gap || options->command->bit == GIS_CHECK) return true;
     if (options->text[OPT_EASE] && !(rules->core.ease > 0))
         return gis_fail_usage(error, "--ease no: pairs between the least gap and the gap need a price");
@@ -232,7 +248,8 @@ void gis_resolve_original(const gis_options *options, const gis_layer_input_requ
     out->source = (gis_source_request){.path = options->text[OPT_BEFORE],
                                        .where = now->source.where,
                                        .input_crs = now->source.input_crs,
-                                       .layer_like = name};
+                                       .layer = options->original_layer,
+                                       .layer_like = options->original_layer ? NULL : name};
     out->output = NULL;
     out->rules.block_field = NULL;
     out->rules.rows_field = rows_field_of(options);
@@ -248,18 +265,13 @@ void gis_resolve_original(const gis_options *options, const gis_layer_input_requ
  * in a way that cannot be repeated on the original layer. */
 static bool check_before(const gis_options *options, gis_error *error)
 {
-    static const gis_option_id of_moves[] = {OPT_MAX_SHIFT,   OPT_MAX_SHIFT_FIELD,
-                                             OPT_FIXED_WHERE, OPT_ALLOW_JUMPS,
-                                             OPT_ROWS,        OPT_TRIM,
-                                             OPT_INSET,       OPT_SYMBOL_SIZE,
-                                             OPT_ENLARGE},
-                               of_results[] = {OPT_SQL, OPT_BBOX};
+    static const gis_option_id of_results[] = {OPT_SQL, OPT_BBOX};
     bool before = options->given[OPT_BEFORE];
     if (options->command->bit != GIS_CHECK) return true;
-    for (size_t i = 0; !before && i < sizeof of_moves / sizeof *of_moves; i++)
-        if (options->given[of_moves[i]])
+    for (int id = 0; !before && id < OPT_N; id++)
+        if (options->given[id] && gis_option_is_of_moves((gis_option_id)id))
             return gis_fail_usage(error, "%s is a rule for moves; check needs --before ORIGINAL with it",
-                                  gis_option_table[of_moves[i]].names);
+                                  gis_option_table[id].names);
     for (size_t i = 0; before && i < sizeof of_results / sizeof *of_results; i++)
         if (options->given[of_results[i]])
             return gis_fail_usage(

@@ -252,6 +252,7 @@ void gis_separate_stats(gis_json *out, const gis_separate_run *run)
     gis_json_seconds(out, "total", gis_clock() - run->start);
     gis_json_close(out, '}');
     gis_json_put_size(out, "peak_rss_bytes", gis_peak_rss());
+    gis_json_sheet(out, run->options);
     gis_json_close(out, '}');
     gis_json_raw(out, "\n");
 }

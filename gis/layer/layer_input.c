@@ -1,6 +1,7 @@
 /* layer_input.c: reads a layer: opens its source, makes shapes of its features, applies the rules to each, and passes
  * everything to the core. Hints about a misunderstood command line are added here, where it is known that opening
  * failed. */
+#include "layer/gap_rules.h"
 #include "layer/enlarging.h"
 #include "layer/levels.h"
 
@@ -132,6 +133,7 @@ static bool make_layer(gis_layer_input *input, gis_error *error)
         return gis_core_failed(error, gis_source_name(input->source), &why);
     if (sunder_layer_set_barriers(input->layer, input->barriers.barrier, input->barriers.n, &why) != SUNDER_OK)
         return gis_core_failed(error, "--barrier", &why);
+    if (!gis_class_gaps_set(input, NULL, input->n, input->layer, error)) return false;
     if (sunder_layer_set_rows(input->layer, input->row, &why) != SUNDER_OK)
         return gis_core_failed(error, "--rows", &why);
     sunder_layer_set_crossed(input->layer, input->request->rules.crossed);
@@ -223,7 +225,7 @@ static bool read_barriers(gis_layer_input *input, gis_error *error)
         .units = &input->units,
         .targets = targets,
         .reach = input->barrier_reach,
-        .gap = input->gap,
+        .gap = fmax(input->gap, input->class_tables.most_full),
         .least_gap = request->rules.least_gap.text ? input->least_gap : -1,
         .invalid = request->invalid,
         .output = request->output,
@@ -237,6 +239,7 @@ static bool read_barriers(gis_layer_input *input, gis_error *error)
 bool gis_layer_begin(const gis_layer_input_request *request, bool packed, gis_layer_input *out, gis_error *error)
 {
     *out = (gis_layer_input){.request = request,
+                             .class_field = -1,
                              .prefer_field = {-1, -1},
                              .id_field = -1,
                              .block_field = -1,
@@ -347,6 +350,7 @@ void gis_layer_input_clear(gis_layer_input *input)
     gis_layer_drop_features(input);
     gis_rung_lengths_clear(&input->lengths);
     gis_layer_shaping_free(input->shaping);
+    gis_class_gaps_clear(&input->class_tables);
     gis_barriers_clear(&input->barriers);
     gis_source_close(input->source);
     *input = (gis_layer_input){0};

@@ -51,6 +51,13 @@ typedef struct gis_previous {
     size_t gone;   /* the number of its features that the layer does not have */
 } gis_previous;
 
+/* The gaps of each two classes, in units of the layer; zeroed: all pairs have the gap. */
+typedef struct gis_class_tables {
+    double *gap, *full; /* [classes * classes] */
+    double most, most_full;
+    bool slack; /* some gap is less than the full one */
+} gis_class_tables;
+
 typedef struct gis_layer_input {
     const gis_layer_input_request *request;
     gis_source *source;
@@ -75,6 +82,8 @@ typedef struct gis_layer_input {
     gis_layer_shaping *shaping;
     int64_t *row; /* [n] the row of each feature by --rows FIELD, -1 for none; NULL: none are given */
     gis_previous previous;
+    gis_class_tables class_tables;
+    int class_field;     /* index of the field with the classes for gaps; -1: not given */
     int prefer_field[2]; /* index of each field; -1: not given */
     int id_field, block_field, limit_field, weight_field, rows_field, hierarchy_field,
         hidden_field;     /* index of each field; -1: not given */

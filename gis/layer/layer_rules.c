@@ -2,7 +2,7 @@
  * limits. Errors in the data name the feature; errors in a rule name the option. */
 #include "layer/layer_rules.h"
 
-#include "layer/layer_input.h"
+#include "layer/gap_rules.h"
 #include "read/fields.h"
 
 #include <cpl_conv.h>
@@ -23,7 +23,8 @@ bool gis_layer_fields(gis_layer_input *input, gis_error *error)
 {
     const gis_source *source = input->source;
     const gis_layer_rules *rules = &input->request->rules;
-    return gis_field_find(source, "--id-field", input->request->id_field, &input->id_field, error) &&
+    return gis_class_gaps_field(input, error) &&
+           gis_field_find(source, "--id-field", input->request->id_field, &input->id_field, error) &&
            gis_field_find(source, "--block-field", rules->block_field, &input->block_field, error) &&
            gis_field_find(source, "--rows", rules->rows_field, &input->rows_field, error) &&
            gis_field_find_numbers(source, "--max-shift-field", rules->max_shift_field, &input->limit_field, error) &&
@@ -59,7 +60,7 @@ bool gis_layer_lengths(gis_layer_input *input, gis_error *error)
         !(input->lengths.symbol_size > 0 && input->lengths.symbol_size >= input->lengths.min_size))
         return gis_fail_usage(error, "--symbol-size %s: must be above 0, and not below --min-size",
                               rules->symbol_size.text);
-    return true;
+    return gis_class_gaps_tables(input, error);
 }
 
 bool gis_layer_marks(gis_layer_input *input, gis_error *error)

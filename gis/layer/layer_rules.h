@@ -20,6 +20,7 @@ const char *gis_weighting_string(gis_weighting weighting);
 /* Strings are borrowed; zeroed members mean "not given". */
 typedef struct gis_layer_rules {
     gis_optional_length gap, least_gap, max_shift, touch_tolerance;
+    const struct gis_gap_classes *classes; /* gaps by classes (gap_rules.h); NULL: all pairs have the gap */
     bool has_least_gap;                     /* --least-gap is given, or least= of a barrier */
     const char *ignore_where, *fixed_where; /* SQL */
     const char *block_field, *weight_field, *max_shift_field, *rows_field;

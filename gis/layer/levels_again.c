@@ -4,6 +4,7 @@
 #include "layer/levels_again.h"
 
 #include "base/core_error.h"
+#include "layer/gap_rules.h"
 #include "layer/enlarging.h"
 #include "layer/levels.h"
 
@@ -57,6 +58,7 @@ bool gis_levels_again(gis_layer_input *original, const size_t *lost, size_t n, g
     bool ok = (sunder_layer_new(original->feature, original->n, &layer, &why) == SUNDER_OK &&
                sunder_layer_set_barriers(layer, barriers->barrier, barriers->n, &why) == SUNDER_OK) ||
               gis_core_failed(error, "--before", &why);
+    ok = ok && gis_class_gaps_set(original, NULL, original->n, layer, error);
     if (ok) sunder_layer_set_crossed(layer, original->request->rules.crossed);
     ok = ok && gis_enlarge_tell(original, NULL, original->n, layer, error) &&
          gis_levels_make(original, layer, levels, error);

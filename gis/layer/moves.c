@@ -2,6 +2,7 @@
  * and everything else are those of the original. */
 #include "layer/moves.h"
 
+#include "layer/gap_rules.h"
 #include "layer/enlarging.h"
 #include "layer/feature_keys.h"
 #include "layer/levels.h"
@@ -162,6 +163,9 @@ static bool make_layers(pairing *p, gis_error *error)
         sunder_layer_set_barriers(m->before, barriers->barrier, barriers->n, &why) != SUNDER_OK ||
         sunder_layer_set_barriers(m->after, barriers->barrier, barriers->n, &why) != SUNDER_OK)
         return gis_core_failed(error, "--before", &why);
+    if (!gis_class_gaps_set(&m->original, m->matched, m->n, m->before, error) ||
+        !gis_class_gaps_set(&m->original, m->matched, m->n, m->after, error))
+        return false;
     sunder_layer_set_crossed(m->before, m->original.request->rules.crossed);
     return gis_enlarge_tell(&m->original, m->matched, m->n, m->before, error) && set_rows(m, error) &&
            set_sides(m, error) && gis_levels_set(&m->original, &m->levels, m->matched, m->n, m->before, error);

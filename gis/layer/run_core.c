@@ -22,6 +22,15 @@ double gis_layer_kink(const gis_layer_input *input)
     return input->gap / 10;
 }
 
+/* The core's gaps are the greatest ones of any two classes; the default tolerance is that of the gap. */
+static void take_class_gaps(const gis_layer_input *input, sunder_layer_options *core)
+{
+    const gis_class_tables *tables = &input->class_tables;
+    core->gap = tables->most;
+    core->full_gap = tables->slack ? tables->most_full : 0;
+    if (core->touch_tolerance < 0) core->touch_tolerance = fmin(input->gap, tables->most_full) / 10;
+}
+
 /* Symbols join blocks by touching only if a tolerance is given, since symbols should stay distinct. */
 sunder_layer_options gis_layer_core_options(const gis_layer_input *input)
 {
@@ -30,6 +39,7 @@ sunder_layer_options gis_layer_core_options(const gis_layer_input *input)
     core.gap = rules->least_gap.text ? input->least_gap : input->gap;
     core.full_gap = rules->least_gap.text ? input->gap : 0;
     core.touch_tolerance = input->tolerance;
+    if (rules->classes) take_class_gaps(input, &core);
     core.no_touch = input->points && !rules->touch_tolerance.text;
     core.thin = gis_layer_thin(input);
     core.no_blocks = core.no_blocks || input->blocks_given;

@@ -68,19 +68,34 @@ static bool push_value(gis_options *out, gis_option_id id, const char *value, gi
     return true;
 }
 
-static bool join_pair(gis_options *out, const char *key, const char *value, const char **joined, gis_error *error)
+/* Allocates a text of n bytes that lives as long as the options; NULL if memory is out. */
+static char *new_text(gis_options *out, size_t n)
 {
     char **owned = realloc(out->owned, (out->n_owned + 1) * sizeof *owned);
-    if (!owned) return gis_no_memory(error);
+    if (!owned) return NULL;
     out->owned = owned;
+    char *text = malloc(n);
+    if (text) out->owned[out->n_owned++] = text;
+    return text;
+}
+
+static bool join_pair(gis_options *out, const char *key, const char *value, const char **joined, gis_error *error)
+{
     size_t k = strlen(key), v = strlen(value);
-    char *text = malloc(k + v + 2);
+    char *text = new_text(out, k + v + 2);
     if (!text) return gis_no_memory(error);
     memcpy(text, key, k);
     text[k] = '=';
     memcpy(text + k + 1, value, v + 1);
-    out->owned[out->n_owned++] = text;
     *joined = text;
+    return true;
+}
+
+bool gis_options_own(gis_options *options, const char *text, const char **copy, gis_error *error)
+{
+    char *own = new_text(options, strlen(text) + 1);
+    if (!own) return gis_no_memory(error);
+    *copy = strcpy(own, text);
     return true;
 }
 
@@ -290,14 +305,29 @@ static bool check_needs(const gis_options *out, gis_error *error)
     return true;
 }
 
-/* Sets the defaults of choices and checks the conditions between options and operands. */
-static bool finish_options(gis_options *out, gis_error *error)
+bool gis_options_set(gis_options *options, gis_option_id id, const char *value, gis_error *error)
 {
-    const gis_command *command = out->command;
+    arguments none = {0, 0, NULL};
+    const char *own = NULL;
+    if (value && !gis_options_own(options, value, &own, error)) return false;
+    options->given[id] = true;
+    return set_value(&gis_option_table[id], &none, own, options, error);
+}
+
+/* Sets the defaults of choices. */
+static void set_choices(gis_options *out)
+{
     for (int i = 0; i < OPT_N; i++) {
         const gis_option *option = &gis_option_table[i];
         if (option->type == GIS_TYPE_CHOICE && !out->given[option->id]) out->text[option->id] = option->fallback;
     }
+}
+
+bool gis_options_finish(gis_options *options, gis_error *error)
+{
+    gis_options *out = options;
+    const gis_command *command = out->command;
+    set_choices(out);
     if (out->given[OPT_OUTPUT]) {
         if (out->n_operands >= command->most)
             return gis_fail_usage(error, "OUTPUT is given twice, as an operand and by --output");
@@ -342,5 +372,6 @@ bool gis_options_parse(const gis_command *command, int argc, char **argv, gis_op
             out->operand[out->n_operands++] = word;
         }
     }
-    return finish_options(out, error);
+    set_choices(out);
+    return out->given[OPT_SPEC] ? check_needs(out, error) : gis_options_finish(out, error);
 }

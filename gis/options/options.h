@@ -39,6 +39,7 @@ typedef enum gis_option_id {
     OPT_FROM, OPT_TO, OPT_FREE_SPACE, OPT_SHARDS, OPT_SHARD,
     OPT_ALLOW_CONFLICTS,
     OPT_SHAPE, OPT_OPERATION, OPT_DISSOLVE, OPT_DISSOLVE_FIELD, OPT_EXPLODE, OPT_ALIGN, OPT_DEGENERATE,
+    OPT_SPEC, OPT_PRINT_SPEC,
     OPT_INPUT_LAYER, OPT_WHERE, OPT_SQL, OPT_DIALECT, OPT_BBOX, OPT_IF, OPT_OO, OPT_CONFIG, OPT_INPUT_CRS,
     OPT_OUTPUT, OPT_OF, OPT_NLT, OPT_LCO, OPT_CO, OPT_OUTPUT_LAYER, OPT_LAYERS, OPT_OVERWRITE, OPT_UPDATE,
     OPT_OVERWRITE_LAYER, OPT_OGR_OVERWRITE, OPT_NO_STYLES,
@@ -119,6 +120,9 @@ typedef struct gis_need {
 /* Returns what an option needs, NULL if it needs none. */
 const gis_need *gis_option_need(gis_option_id option);
 
+/* Is the option about moves, so that check has no use for it without --before? */
+bool gis_option_is_of_moves(gis_option_id option);
+
 /* May the option be repeated, each time with one more value? (A flag may be repeated, too, without effect.) */
 bool gis_option_is_list(const gis_option *option);
 /* Do all commands that have the option fail without it? */
@@ -152,6 +156,10 @@ struct gis_options {
     size_t n_operands;
     char **owned; /* [n_owned] texts allocated here (K=V joined from two arguments) */
     size_t n_owned;
+    /* Of a sheet (--spec), borrowed; NULL: none. */
+    const struct gis_gap_classes *gap_classes;
+    const char *sheet;          /* it, with the other options in it, as JSON */
+    const char *original_layer; /* the layer that moves, in its source: check --before looks for it */
 };
 
 /* Parses the arguments that follow the name of the command. *out borrows the strings of argv. If --help is among them,
@@ -159,6 +167,14 @@ struct gis_options {
  * gis_options_clear() on failure, too. */
 bool gis_options_parse(const gis_command *command, int argc, char **argv, gis_options *out, gis_error *error);
 void gis_options_clear(gis_options *options);
+
+/* For options that a sheet (--spec) gives. With --spec among the arguments gis_options_parse() does not check operands,
+ * and conditions between options; gis_options_finish() does so once everything is set. */
+/* Stores a value of an option, as if it had been given, once more for a list. value: NULL for a flag; copied. */
+bool gis_options_set(gis_options *options, gis_option_id id, const char *value, gis_error *error);
+/* Sets *copy to a copy of a text that lives as long as the options. */
+bool gis_options_own(gis_options *options, const char *text, const char **copy, gis_error *error);
+bool gis_options_finish(gis_options *options, gis_error *error);
 
 /* Print --help of the program, and of one command, to stdout. */
 void gis_help_program(void);

@@ -6,6 +6,7 @@
 static const gis_need needs[] = {
     {OPT_OVERWRITE_LAYER, 1, {OPT_UPDATE}},
     {OPT_DIALECT, 1, {OPT_SQL}},
+    {OPT_PRINT_SPEC, 1, {OPT_SPEC}},
     {OPT_PREFER_DX, 1, {OPT_PREFER_DY}},
     {OPT_PREFER_DY, 1, {OPT_PREFER_DX}},
     {OPT_PREVIOUS_RELAX, 1, {OPT_PREVIOUS}},
@@ -26,6 +27,16 @@ const gis_need *gis_option_need(gis_option_id option)
     for (size_t i = 0; i < sizeof needs / sizeof *needs; i++)
         if (needs[i].option == option) return &needs[i];
     return NULL;
+}
+
+bool gis_option_is_of_moves(gis_option_id option)
+{
+    static const gis_option_id of_moves[] = {OPT_MAX_SHIFT, OPT_MAX_SHIFT_FIELD, OPT_FIXED_WHERE,
+                                             OPT_ALLOW_JUMPS, OPT_ROWS, OPT_TRIM, OPT_INSET, OPT_SYMBOL_SIZE,
+                                             OPT_ENLARGE};
+    for (size_t i = 0; i < sizeof of_moves / sizeof *of_moves; i++)
+        if (of_moves[i] == option) return true;
+    return false;
 }
 
 const gis_option gis_option_table[OPT_N] = {
@@ -165,6 +176,10 @@ const gis_option gis_option_table[OPT_N] = {
     [OPT_DEGENERATE] = {OPT_DEGENERATE, "--degenerate", GIS_TYPE_FLAG, GIS_BUFFER, OWN, NULL, NULL,
                         "also write degenerate segments and points as layers"},
 
+    [OPT_SPEC] = {OPT_SPEC, "--spec", GIS_TYPE_DATASET, GIS_LAYERS, GIS_GROUP_INPUT, "SHEET.json", NULL,
+                  "layers, rules and gaps by classes, in place of INPUT; other options override it"},
+    [OPT_PRINT_SPEC] = {OPT_PRINT_SPEC, "--print-spec", GIS_TYPE_FLAG, GIS_LAYERS, GIS_GROUP_INPUT, NULL, NULL,
+                        "print the sheet with the other options in it, and do nothing else"},
     [OPT_INPUT_LAYER] = {OPT_INPUT_LAYER, "--input-layer -l --layer", GIS_TYPE_LAYER, GIS_ALL, GIS_GROUP_INPUT, "NAME",
                          NULL, "layer of the input; required if several have a suitable geometry type"},
     [OPT_WHERE] = {OPT_WHERE, "--where -where", GIS_TYPE_SQL, GIS_ALL, GIS_GROUP_INPUT, "SQL", NULL,

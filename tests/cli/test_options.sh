@@ -41,6 +41,7 @@ separate --enlarge --min-size
 separate --rigid-where --trim --inset --enlarge --symbol-size
 separate --crossed --hide --trim --inset --enlarge --symbol-size
 separate --symbol-size-field --symbol --symbol-field
+separate --print-spec --spec
 separate --dialect --sql
 separate --overwrite-layer --update
 check --hierarchy-field --hidden-field
@@ -50,6 +51,7 @@ check --enlarge --min-size
 check --rigid-where --trim --inset --enlarge --symbol-size
 check --crossed --hidden-field --trim --inset --enlarge --symbol-size
 check --symbol-size-field --symbol --symbol-field
+check --print-spec --spec
 check --dialect --sql
 check --overwrite-layer --update
 sum --dialect --sql

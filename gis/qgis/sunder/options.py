@@ -255,6 +255,7 @@ LEFT_OUT = {
     "--exact": "a layer holds doubles; rationals are for the shell",
     "--allow-conflicts": "what remains is told as a warning, not as a failure",
     "--shard": _SHARDS,
+    "--spec": "a sheet names its own layers: for the shell", "--print-spec": "a sheet names its own layers: for the shell",
     "--progress": _OURS, "--max-memory": "layers that memory does not hold are for the shell", "--quiet": _OURS, "--stats": _OURS, "--report": "an output", "--proof": "an output",
     "--trace": "for developers, in a shell", "--log": "an output", "--messages": _OURS, "--help": "the panel beside the dialog",
 }

@@ -1,0 +1,185 @@
+/* sheet_read.c: reads a sheet and applies it to the options of a command. Comments may stand in the file, as json-c
+ * allows them. */
+#include "sheet/sheet_inner.h"
+
+#include "base/path.h"
+#include "base/text.h"
+
+#include <cpl_conv.h>
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- The file ---------------------------------------------------------------------------------------------------- */
+
+static bool read_text(const char *path, gis_text *out, gis_error *error)
+{
+    FILE *file = fopen(path, "rb");
+    char bytes[1 << 14];
+    if (!file) return gis_fail(error, "--spec %s: %s", path, strerror(errno));
+    for (size_t n; (n = fread(bytes, 1, sizeof bytes, file)) > 0;) gis_text_add_bytes(out, bytes, n);
+    const bool failed = ferror(file) != 0;
+    fclose(file);
+    if (failed) return gis_fail(error, "--spec %s: cannot be read", path);
+    return gis_text_get(out) || gis_no_memory(error);
+}
+
+static size_t line_of(const char *text, size_t offset)
+{
+    size_t line = 1;
+    for (size_t k = 0; k < offset && text[k]; k++) line += text[k] == '\n';
+    return line;
+}
+
+static bool parse(gis_sheet *sheet, gis_error *error)
+{
+    gis_text text = {0};
+    struct json_tokener *tokener = json_tokener_new();
+    bool ok = (tokener || gis_no_memory(error)) && read_text(sheet->path, &text, error);
+    if (ok) {
+        sheet->root = json_tokener_parse_ex(tokener, gis_text_get(&text), (int)text.length + 1);
+        const enum json_tokener_error why = json_tokener_get_error(tokener);
+        if (why != json_tokener_success)
+            ok = gis_fail_usage(error, "%s: line %zu: %s", sheet->path,
+                                line_of(gis_text_get(&text), json_tokener_get_parse_end(tokener)),
+                                json_tokener_error_desc(why));
+    }
+    if (tokener) json_tokener_free(tokener);
+    gis_text_clear(&text);
+    if (ok && !json_object_is_type(sheet->root, json_type_object))
+        return gis_sheet_fail(sheet, error, "", "must be a JSON object with \"layers\"");
+    return ok;
+}
+
+/* ---- Layers ------------------------------------------------------------------------------------------------------ */
+
+const char *const gis_sheet_moving_keys[] = {"name", "source", "layer", "role", "class", "crs", NULL};
+static const char *const sheet_keys[] = {"title", "scale", "defaults", "layers", "gaps", NULL};
+
+static bool set_text(const gis_sheet *sheet, struct json_object *layer, const char *place, const char *key,
+                     gis_option_id id, gis_options *options, gis_error *error)
+{
+    const char *text;
+    gis_error why;
+    if (!gis_sheet_text(sheet, layer, place, key, &text, error)) return false;
+    if (!text || options->given[id] || !(gis_option_table[id].commands & options->command->bit)) return true;
+    return gis_options_set(options, id, text, &why) || gis_sheet_fail(sheet, error, place, "%s", why.message);
+}
+
+/* Makes the source the first operand, unless check was given another one. */
+static bool set_operands(const gis_sheet *sheet, const char *source, gis_options *options, gis_error *error)
+{
+    const bool check = options->command->bit == GIS_CHECK;
+    if (check && options->n_operands > 0) return true;
+    if (options->n_operands >= options->command->most)
+        return gis_fail_usage(error, "--spec names the layer that moves; leave out INPUT");
+    char *path = gis_sheet_dataset(sheet, source);
+    const bool ok = gis_options_own(options, path, &source, error);
+    CPLFree(path);
+    for (size_t k = options->n_operands; ok && k > 0; k--) options->operand[k] = options->operand[k - 1];
+    options->operand[0] = source;
+    options->n_operands++;
+    return ok;
+}
+
+static bool apply_moving(gis_sheet *sheet, struct json_object *layer, const char *place, gis_options *options,
+                         gis_error *error)
+{
+    const char *source, *name, *of;
+    const bool other = options->command->bit == GIS_CHECK && options->n_operands > 0;
+    if (!gis_sheet_check_keys(sheet, layer, place, gis_sheet_moving_keys, true, error) ||
+        !gis_sheet_text(sheet, layer, place, "source", &source, error) ||
+        !gis_sheet_read_class(sheet, layer, place, &of, &sheet->gaps.field, error))
+        return false;
+    sheet->gaps.of_features = of ? gis_sheet_class(sheet, of) : 0;
+    sheet->classes_by_field = sheet->classes_by_field || sheet->gaps.field;
+    return gis_sheet_text(sheet, layer, place, "name", &name, error) && set_operands(sheet, source, options, error) &&
+           gis_sheet_text(sheet, layer, place, "layer", &options->original_layer, error) &&
+           (other || set_text(sheet, layer, place, "layer", OPT_INPUT_LAYER, options, error)) &&
+           set_text(sheet, layer, place, "crs", OPT_INPUT_CRS, options, error) &&
+           (options->command->bit == GIS_CHECK ||
+            set_text(sheet, layer, place, "name", OPT_OUTPUT_LAYER, options, error)) &&
+           gis_rules_set(sheet, layer, place, options, error);
+}
+
+static bool apply_layer(gis_sheet *sheet, struct json_object *layer, const char *place, size_t *moving,
+                        gis_options *options, gis_error *error)
+{
+    const char *role, *source;
+    if (!json_object_is_type(layer, json_type_object)) return gis_sheet_fail(sheet, error, place, "must be an object");
+    if (!gis_sheet_text(sheet, layer, place, "role", &role, error) ||
+        !gis_sheet_text(sheet, layer, place, "source", &source, error))
+        return false;
+    if (!source) return gis_sheet_fail(sheet, error, place, "\"source\" is missing: a dataset");
+    if (role && (strcmp(role, "barrier") == 0 || strcmp(role, "fixed") == 0))
+        return sheet->said[OPT_BARRIER] || gis_sheet_add_barriers(sheet, layer, place, options, error);
+    if (role && strcmp(role, "follow") == 0)
+        return gis_sheet_fail(sheet, error, place, "a layer that follows is moved by sunder follow, from the result");
+    if (!role || strcmp(role, "move") != 0)
+        return gis_sheet_fail(sheet, error, place, "\"role\" must be move, fixed or barrier");
+    if ((*moving)++) return gis_sheet_fail(sheet, error, place, "a second layer with the role move; one can move");
+    return apply_moving(sheet, layer, place, options, error);
+}
+
+static bool apply_layers(gis_sheet *sheet, gis_options *options, gis_error *error)
+{
+    struct json_object *layers = gis_sheet_member(sheet->root, "layers");
+    size_t moving = 0;
+    if (!json_object_is_type(layers, json_type_array))
+        return gis_sheet_fail(sheet, error, "layers", "must be an array of objects");
+    for (size_t k = 0; k < json_object_array_length(layers); k++) {
+        char place[GIS_PLACE_SIZE];
+        snprintf(place, sizeof place, "layers[%zu]", k);
+        if (!apply_layer(sheet, json_object_array_get_idx(layers, k), place, &moving, options, error)) return false;
+    }
+    return moving || gis_sheet_fail(sheet, error, "layers", "none has the role move");
+}
+
+/* ---- All of it --------------------------------------------------------------------------------------------------- */
+
+static bool apply_sheet(gis_sheet *sheet, gis_options *options, gis_error *error)
+{
+    struct json_object *scale = gis_sheet_member(sheet->root, "scale"),
+                       *defaults = gis_sheet_member(sheet->root, "defaults");
+    gis_error why;
+    if (!gis_sheet_check_keys(sheet, sheet->root, "", sheet_keys, false, error)) return false;
+    if (scale && !options->given[OPT_SCALE] &&
+        (!gis_sheet_scalar(scale) || !gis_options_set(options, OPT_SCALE, gis_sheet_scalar(scale), &why)))
+        return gis_sheet_fail(sheet, error, "scale", "must be N or \"1:N\", above 0");
+    if (defaults && !json_object_is_type(defaults, json_type_object))
+        return gis_sheet_fail(sheet, error, "defaults", "must be an object of rules");
+    const char *const none[] = {NULL};
+    return gis_sheet_read_gaps(sheet, options, error) && apply_layers(sheet, options, error) &&
+           gis_sheet_check_classes(sheet, error) &&
+           (!defaults || gis_sheet_check_keys(sheet, defaults, "defaults", none, true, error)) &&
+           gis_rules_set(sheet, defaults, "defaults", options, error);
+}
+
+bool gis_sheet_apply(gis_options *options, gis_sheet *out, gis_error *error)
+{
+    *out = (gis_sheet){.path = options->text[OPT_SPEC]};
+    if (!out->path) return true;
+    memcpy(out->said, options->given, sizeof out->said);
+    out->directory = gis_path_directory(out->path);
+    if (!parse(out, error) || !apply_sheet(out, options, error) || !gis_sheet_make_effective(out, options, error))
+        return false;
+    options->sheet =
+        json_object_to_json_string_ext(out->effective, JSON_C_TO_STRING_PLAIN | JSON_C_TO_STRING_NOSLASHESCAPE);
+    out->gaps.name = out->name;
+    out->gaps.rule = out->rule;
+    out->gaps.of_barrier = out->of_barrier;
+    if (out->gaps.rules) options->gap_classes = &out->gaps;
+    return options->given[OPT_PRINT_SPEC] || gis_options_finish(options, error);
+}
+
+void gis_sheet_clear(gis_sheet *sheet)
+{
+    json_object_put(sheet->effective);
+    json_object_put(sheet->root);
+    CPLFree(sheet->directory);
+    free(sheet->name);
+    free(sheet->rule);
+    free(sheet->of_barrier);
+    *sheet = (gis_sheet){0};
+}

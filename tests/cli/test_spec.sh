@@ -1,0 +1,97 @@
+# shellcheck shell=bash disable=SC1091
+# --spec: gaps by classes as the sheet says, judged by an independent reader; a sheet with one gap is the same run as the
+# options; the command line overrides the sheet; mistakes name their place in the file.
+. "$SUNDER_SOURCE/tests/cli/lib.sh" || exit 1
+export SOURCE_DATE_EPOCH=0
+worlds() { python3 "$SUNDER_SOURCE/tests/cli/spec_worlds.py" "$@" || fail "spec_worlds.py $1"; }
+
+# ---- Gaps by classes
+any=0
+for seed in 1 2 3 4; do
+    rm -f town.gpkg
+    worlds make town.gpkg sheet.json $seed
+    expect 0 separate --spec sheet.json result.gpkg --overwrite -q --allow-conflicts --stats stats.json
+    read -r pairs near found listed < <(worlds judge result.gpkg town.gpkg sheet.json)
+    [ "$near" = "$found" ] && [ "$listed" = "$found" ] || fail "seed $seed: $near of $pairs pairs are too near, $listed are listed"
+    any=$((any + near))
+    same "$(jq -c '.spec.layers[0].name' stats.json)" '"moved"' 'the sheet in the statistics:'
+    # Whoever moved it: the check of the result finds the same pairs, and no move that breaks a rule.
+    expect 0 check --spec sheet.json result.gpkg --block-field sunder_blk --allow-conflicts --stats check.json
+    same "$(jq -c .conflicts.after stats.json)" "$(jq -c .conflicts check.json)" "seed $seed:"
+    expect 0 check --spec sheet.json result.gpkg --block-field sunder_blk --allow-conflicts --before town.gpkg --stats check.json
+    same "$(jq -c '.moves | del(.matched) | add' check.json)" 0 "seed $seed, moves:"
+done
+[ "$any" -gt 0 ] || fail "no pair remained too near, so that the list was not asked"
+
+# ---- One gap: the same bytes as the options
+cat >one.json <<'JSON'
+{"scale": "1:10000", // metres of the ground: 0.2 mm are 2 m
+ "defaults": {"gap": "0.2mm", "max_shift": 8, "no_blocks": true, "row_stiffness": [4, 0.5]},
+ "layers": [{"name": "houses", "source": "town.gpkg", "layer": "houses", "role": "move"},
+            {"name": "roads", "source": "town.gpkg", "layer": "roads", "role": "barrier", "width": 4}]}
+JSON
+options=(--scale 10000 --gap 0.2mm --max-shift 8 --no-blocks --row-stiffness 4,0.5)
+expect 0 separate --spec one.json by_sheet.gpkg -q --allow-conflicts
+expect 0 separate town.gpkg by_options.gpkg -q --allow-conflicts --input-layer houses --output-layer houses "${options[@]}" \
+    --barrier town.gpkg,layer=roads,width=4
+cmp -s by_sheet.gpkg by_options.gpkg || fail "a sheet with one gap has other bytes than the options"
+# From elsewhere paths are relative to the sheet; options of the command line override it; a plan has its options.
+mkdir -p there
+(cd there && "$SUNDER" separate --spec ../one.json ../by_path.gpkg -q --allow-conflicts) || fail "another directory"
+cmp -s by_sheet.gpkg by_path.gpkg || fail "the sheet from another directory has other bytes"
+expect 0 separate --spec one.json other.gpkg -q --allow-conflicts --gap 1 --max-shift 3
+expect 0 separate town.gpkg other_options.gpkg -q --allow-conflicts --input-layer houses --output-layer houses \
+    --scale 10000 --gap 1 --max-shift 3 --no-blocks --row-stiffness 4,0.5 --barrier town.gpkg,layer=roads,width=4
+cmp -s other.gpkg other_options.gpkg || fail "options do not override the sheet"
+expect 0 plan --spec one.json plan.dir --shards 2 -q --allow-conflicts
+for k in 1 2; do expect 0 separate --shard $k plan.dir -q; done
+expect 0 merge plan.dir merged.gpkg -q
+cmp -s by_sheet.gpkg merged.gpkg || fail "the plan of a sheet has other bytes"
+expect 0 separate --spec one.json --print-spec --gap 1 --no-blocks --scale 5000
+same "$(jq -c '[.scale, .layers[0].gap, .layers[0].no_blocks, .layers[1].width]' out)" '[5000,"1",true,4]' 'the effective sheet:'
+"$SUNDER" --spec-schema >schema.json || fail "--spec-schema"
+same "$(jq -c '[.required, .properties.gaps.items.required, .properties.layers.items.properties.max_shift.type[0]]' schema.json)" \
+    '[["layers"],["between"],"string"]' 'the schema:'
+for key in $(sed 's|//.*||' one.json | jq -r '.layers[0] | keys[]'); do
+    jq -e --arg k "$key" '.properties.layers.items.properties[$k]' schema.json >/dev/null || fail "the schema lacks $key"
+done
+
+# ---- Widths and classes by a field, in formats whose conditions GDAL evaluates
+ogr2ogr -q -lco ENCODING=UTF-8 roads.shp town.gpkg roads
+jq '.layers[1].source = "roads.shp" | del(.layers[1].layer)' < <(sed 1d sheet.json) >shape.json
+expect 0 separate --spec sheet.json from_gpkg.gpkg -q --allow-conflicts --layers main
+expect 0 separate --spec shape.json from_shp.gpkg -q --allow-conflicts --layers main
+cmp -s from_gpkg.gpkg from_shp.gpkg || fail "roads of a shapefile have other widths or classes"
+
+# ---- What is wrong
+wrong() { # WORDS FILTER: of one.json
+    sed 's|//.*||' one.json | jq "$2" >wrong.json
+    expect 2 separate --spec wrong.json no.gpkg
+    grep -qF -- "$1" err || fail "$2: $(cat err)"
+    [ ! -e no.gpkg ] || fail "$2: an output"
+}
+wrong 'layers[0]: there is no key max_shfit, did you mean max-shift?' '.layers[0].max_shfit = 3'
+wrong 'defaults.max_shift: --max-shift 3 parsecs' '.defaults.max_shift = "3 parsecs"'
+wrong 'layers: none has the role move' 'del(.layers[0])'
+wrong 'layers[2]: a second layer with the role move' '.layers[2] = .layers[0]'
+wrong 'layers[1]: "source" is missing' 'del(.layers[1].source)'
+wrong 'layers[1]: "role" must be' '.layers[1].role = "wall"'
+wrong 'no layer has the class road; did you mean roads?' '.gaps = [{"between": ["road", "*"], "gap": 1}]'
+wrong 'gaps[0]: "between" must be' '.gaps = [{"gap": 1}]'
+wrong 'gaps[0].gap: -1' '.gaps = [{"between": ["*", "*"], "gap": -1}]'
+wrong 'the least gap, 3, is greater than the gap, 2' '.gaps = [{"between": ["houses", "roads"], "gap": 2, "least": 3}]'
+wrong 'layers[1].width: must be a length' '.layers[1].width = {"by": "class"}'
+wrong 'must be true or false' '.defaults.no_blocks = "yes"'
+wrong 'follow' '.layers[1].role = "follow"'
+printf '{"layers": [\n1 2]}' >wrong.json
+expect 2 separate --spec wrong.json no.gpkg
+grep -q 'wrong.json: line 2' err || fail "$(cat err)"
+expect 1 separate --spec none.json no.gpkg
+expect 2 separate --spec one.json town.gpkg no.gpkg
+grep -q 'leave out INPUT' err || fail "$(cat err)"
+for more in "--proof proof.txt" "--max-memory 1G"; do
+    # shellcheck disable=SC2086
+    expect 2 separate --spec sheet.json no.gpkg $more
+    grep -q 'depend on classes' err || fail "$more: $(cat err)"
+done
+finish
