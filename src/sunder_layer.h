@@ -172,8 +172,8 @@ typedef struct sunder_gaps {
 
 /* Gives the layer gaps by classes. A pair keeps the gap of its two classes, or options.gap if that is less; a barrier
  * that has a gap of its own keeps that. With options.full_gap > 0 a pair keeps the full gap of its classes, if it pays,
- * or options.full_gap if that is less. The tolerance, kinks and rows are measured by the gaps of the options, so these
- * should be the greatest ones of the tables. need_gap of a conflict is a value of options.gap.
+ * or options.full_gap if that is less. The tolerance and kinks are measured by the gaps of the options, so these should
+ * be the greatest ones of the tables. need_gap of a conflict is a value of options.gap.
  * gaps    Copied. NULL: all pairs have the gap of the options. Barriers have to be set before: setting them removes the
  *         gaps.
  * Fails   SUNDER_EARG for a number that is out of its range or a table that is not symmetric, SUNDER_ENOMEM */

@@ -1,8 +1,8 @@
 /* layer_input.c: reads a layer: opens its source, makes shapes of its features, applies the rules to each, and passes
  * everything to the core. Hints about a misunderstood command line are added here, where it is known that opening
  * failed. */
-#include "layer/gap_rules.h"
 #include "layer/enlarging.h"
+#include "layer/gap_rules.h"
 #include "layer/levels.h"
 
 #include "base/core_error.h"
@@ -150,7 +150,8 @@ static const double gaps_of_rows = 4;
 
 double gis_layer_barrier_reach(const gis_layer_input *input, double longest_limit)
 {
-    return fmax(limits_known * longest_limit, input->request->rules.core.rows ? gaps_of_rows * input->gap : 0);
+    return fmax(limits_known * longest_limit,
+                input->request->rules.core.rows ? gaps_of_rows * fmax(input->gap, input->class_tables.most_full) : 0);
 }
 
 /* The longest move that any feature may make. */

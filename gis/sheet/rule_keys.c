@@ -11,9 +11,10 @@
 static bool is_rule(const gis_option *option)
 {
     static const gis_option_id more[] = {OPT_EFFORT, OPT_SEED, OPT_INVALID},
-                               none[] = {OPT_SCALE,     OPT_BARRIER,     OPT_SPEC,          OPT_PRINT_SPEC,
-                                         OPT_INPUT_CRS, OPT_INPUT_LAYER, OPT_BEFORE,        OPT_HIDDEN_FIELD,
-                                         OPT_CONFIG,    OPT_PREVIOUS,    OPT_PREVIOUS_RELAX};
+                               none[] = {OPT_SCALE,       OPT_BARRIER,     OPT_SPEC,           OPT_PRINT_SPEC,
+                                         OPT_INPUT_CRS,   OPT_INPUT_LAYER, OPT_BEFORE,         OPT_HIDDEN_FIELD,
+                                         OPT_CONFIG,      OPT_PREVIOUS,    OPT_PREVIOUS_RELAX, OPT_LINKS,
+                                         OPT_LINKS_RADIUS};
     if (!(option->commands & (GIS_SEPARATE | GIS_CHECK))) return false;
     for (size_t k = 0; k < sizeof more / sizeof *more; k++)
         if (option->id == more[k]) return true;

@@ -47,16 +47,21 @@ static sunder_status check_classes(const uint32_t *of, size_t n, size_t classes,
     return SUNDER_OK;
 }
 
-/* Sets out->part from the classes of the features. */
+/* Sets what depends on which classes features have. */
 static void find_parts(const sunder_gaps *gaps, size_t features, sunder_i_class_gaps *out)
 {
     const size_t n = out->n;
-    for (size_t i = 0; i < n; i++) out->part[i] = INFINITY;
-    for (size_t k = 0, last = n; k < features; k++) {
-        const size_t j = gaps->feature[k];
-        if (j == last) continue;
-        last = j;
-        for (size_t i = 0; i < n; i++) out->part[i] = sunder_i_min(out->part[i], out->gap[i * n + j]);
+    bool has[MOST_CLASSES] = {false};
+    for (size_t k = 0; k < features; k++) has[gaps->feature[k]] = true;
+    for (size_t i = 0; i < n; i++) {
+        out->part[i] = INFINITY;
+        for (size_t j = 0; j < n; j++) {
+            if (!has[j]) continue;
+            out->part[i] = sunder_i_min(out->part[i], out->gap[i * n + j]);
+            if (!has[i]) continue;
+            out->among[0] = sunder_i_max(out->among[0], out->gap[i * n + j]);
+            out->among[1] = sunder_i_max(out->among[1], out->full[i * n + j]);
+        }
     }
 }
 

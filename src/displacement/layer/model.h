@@ -557,6 +557,8 @@ sunder_status sunder_i_model_cover_walls(sunder_i_model *model, const uint32_t *
 
 /* Returns the neighbour `other` of the body in a row; NULL if it is none. */
 const sunder_i_row_side *sunder_i_row_side_of(const sunder_i_model *model, const sunder_i_body *body, uint32_t other);
+/* The greatest distance that two features keep if it pays, by which rows are measured. */
+double sunder_i_row_full_gap(const sunder_i_model *model);
 /* Returns the least gap of a member of one body to a member of the other, at most `most`; `table` is the model's
  * class_gap or class_full. */
 double sunder_i_row_gap(const sunder_i_model *model, const double *table, double most, uint32_t i, uint32_t j);

@@ -14,6 +14,12 @@ const sunder_i_row_side *sunder_i_row_side_of(const sunder_i_model *model, const
     return NULL;
 }
 
+double sunder_i_row_full_gap(const sunder_i_model *model)
+{
+    const sunder_i_rules *rules = &model->rules;
+    return model->gaps ? sunder_i_min(rules->full_gap, model->gaps->among[rules->has_full]) : rules->full_gap;
+}
+
 double sunder_i_row_gap(const sunder_i_model *model, const double *table, double most, uint32_t i, uint32_t j)
 {
     const sunder_i_body *p = &model->body[i], *q = &model->body[j];

@@ -159,7 +159,7 @@ static bool find_surroundings(row_search *s)
     s->about = sunder_i_alloc(s->model->bodies, sizeof *s->about);
     for (uint32_t b = 0; b < s->model->bodies && s->about; b++) {
         sunder_i_body_home_box(s->model, &s->model->body[b], box);
-        sunder_i_box_grow(box, ROW_REACH * s->model->rules.full_gap, s->about[b]);
+        sunder_i_box_grow(box, ROW_REACH * sunder_i_row_full_gap(s->model), s->about[b]);
     }
     for (size_t k = 0; k < s->pairs.n && s->about; k++) {
         const uint32_t i = s->pairs.pair[k].i, j = s->pairs.pair[k].j;
@@ -199,7 +199,7 @@ static bool find_reach(const row_search *s, sunder_i_rows *rows)
 
 static sunder_status find_rows(const sunder_i_model *model, sunder_i_rows *rows, sunder_error *err)
 {
-    const sunder_i_rows_wanted wanted = {.reach = ROW_REACH * model->rules.full_gap};
+    const sunder_i_rows_wanted wanted = {.reach = ROW_REACH * sunder_i_row_full_gap(model)};
     row_search s = {.model = model};
     s.walls = sunder_i_calloc(model->features, sizeof *s.walls);
     s.side = sunder_i_alloc(model->bodies, sizeof *s.side);

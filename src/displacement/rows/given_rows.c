@@ -128,7 +128,7 @@ static sunder_status join_all(joining *s, sunder_error *err)
 {
     double one, all;
     measure_extents(s, &one, &all);
-    const double gap = s->model->rules.full_gap;
+    const double gap = sunder_i_row_full_gap(s->model);
     sunder_status status = SUNDER_OK;
     double reach = gap > 0 ? ROW_REACH * gap : one;
     bool more = true;

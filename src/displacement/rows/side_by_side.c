@@ -138,9 +138,8 @@ bool sunder_i_row_side_by_side(const sunder_i_model *model, const sunder_i_walls
     sunder_i_walls_axis(&mean, edge->along);
     measure_edge(model, edge, s, link);
     return apart_by_length(&s[0].along, &s[1].along) >= -ROW_SHARED &&
-           apart_by_length(&s[0].across, &s[1].across) <= -ROW_SHARED &&
-           are_of_one_depth(&s[0].across, &s[1].across) && is_one_deep(&s[0]) && is_one_deep(&s[1]) &&
-           are_in_line(s, edge->offset, model->rules.full_gap);
+           apart_by_length(&s[0].across, &s[1].across) <= -ROW_SHARED && are_of_one_depth(&s[0].across, &s[1].across) &&
+           is_one_deep(&s[0]) && is_one_deep(&s[1]) && are_in_line(s, edge->offset, sunder_i_row_full_gap(model));
 }
 
 /* Sets the axis to the direction of the link, or to the x-axis if the two touch. */
