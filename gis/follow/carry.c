@@ -8,8 +8,8 @@
  * in a corner that is not very sharp, one or two steps are enough. */
 enum { MOST_STEPS = 12 };
 
-/* The member of a group that held a vertex: one whose vertex it was, else one that has it in its interior, else one that
- * has it on its boundary. */
+/* The member of a group that held a vertex: one whose vertex it was, else one that has it in its interior, else one
+ * that has it on its boundary. */
 typedef struct holding {
     const gis_follow_targets *targets;
     size_t group, holder;
