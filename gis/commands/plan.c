@@ -28,8 +28,6 @@ static bool read_call(plan_run *run, const gis_options *options, gis_error *erro
     if (!options->given[OPT_SHARDS]) return gis_fail_usage(error, "--shards N is missing: the number of shards");
     if (!(options->number[OPT_SHARDS] >= 1 && options->number[OPT_SHARDS] <= GIS_PLAN_MOST_SHARDS))
         return gis_fail_usage(error, "--shards: 1 to %d", GIS_PLAN_MOST_SHARDS);
-    if (gis_resolve_unproved(options) && options->given[OPT_PROOF])
-        return gis_fail_usage(error, "%s: not in a plan with --proof", gis_resolve_unproved(options));
     plan->shards = (unsigned)options->number[OPT_SHARDS];
     if (!gis_resolve_memory(options, &plan->memory, error)) return false;
     if (plan->memory == 0) plan->memory = usual_memory;

@@ -18,8 +18,6 @@ gis_optional_length gis_resolve_length(const gis_options *options, gis_option_id
 /* Separate, check and buffer: the request of the layer, and its rules, which buffer ignores. The caller clears *out
  * with gis_layer_input_request_clear(), on failure, too. */
 bool gis_resolve_layer(const gis_options *options, gis_layer_input_request *out, gis_error *error);
-/* Returns an option given that makes features smaller or hides them, for which parts write no proof; NULL: none. */
-const char *gis_resolve_unproved(const gis_options *options);
 /* Check --before: the request of the original layer, with the name `name` if the dataset has such a layer. All else is
  * copied from `now`, the request of the checked layer, which still owns the barriers and strings. */
 void gis_resolve_original(const gis_options *options, const gis_layer_input_request *now, const char *name,

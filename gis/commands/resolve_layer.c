@@ -94,14 +94,6 @@ static bool resolve_crossed(const gis_options *options, gis_layer_rules *out, gi
     return true;
 }
 
-const char *gis_resolve_unproved(const gis_options *options)
-{
-    static const gis_option_id shaping[] = {OPT_TRIM, OPT_INSET, OPT_SYMBOL_SIZE, OPT_ENLARGE, OPT_HIDE};
-    for (size_t k = 0; k < sizeof shaping / sizeof *shaping; k++)
-        if (options->given[shaping[k]]) return gis_option_table[shaping[k]].names;
-    return NULL;
-}
-
 /* What features may become if they have no room. What does not work together with that is refused. */
 static bool resolve_room(const gis_options *options, gis_layer_rules *out, gis_error *error)
 {
@@ -117,9 +109,6 @@ static bool resolve_room(const gis_options *options, gis_layer_rules *out, gis_e
     out->enlarge = options->given[OPT_ENLARGE] && options->command->bit != GIS_CHECK;
     if (options->command->bit != GIS_CHECK) out->symbol_size = gis_resolve_length(options, OPT_SYMBOL_SIZE);
     out->rigid_where = options->text[OPT_RIGID_WHERE];
-    const char *asked = gis_resolve_unproved(options);
-    if (asked && options->given[OPT_MAX_MEMORY] && options->given[OPT_PROOF])
-        return gis_fail_usage(error, "%s: not with --max-memory and --proof", asked);
     if (options->given[OPT_ENLARGE] && (options->given[OPT_SYMBOL] || options->given[OPT_SYMBOL_FIELD]))
         return gis_fail_usage(error, "--enlarge: polygons are made larger, and symbols have their sizes");
     if (options->given[OPT_TRIM] && !options->given[OPT_BARRIER])

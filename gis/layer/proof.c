@@ -33,7 +33,8 @@ gis_proof_head gis_proof_head_of(const gis_layer_input *input, const sunder_laye
                             .summary = summary};
 }
 
-static void count_hiding(const gis_proof_lines *lines, const gis_layer_input *input, gis_proof_head *head)
+static void count_hiding(const gis_proof_lines *lines, const gis_layer_input *input, const gis_proof_choices *choices,
+                         gis_proof_head *head)
 {
     sunder_hiding_summary hiding;
     sunder_report_hiding(lines->report, &hiding);
@@ -42,20 +43,23 @@ static void count_hiding(const gis_proof_lines *lines, const gis_layer_input *in
     head->enlarge = input->request->rules.enlarge;
     head->larger = input->enlarged;
     const gis_levels *levels = &input->levels;
-    for (size_t k = 0; k < levels->features * levels->rungs; k++) head->shapes += levels->shape[k] != NULL;
-    head->clauses = hiding.proved;
-    head->choices = sunder_report_hiding_trees(lines->report)->trees;
+    for (size_t k = 0; k < levels->features * levels->rungs; k++)
+        head->shapes += levels->shape[k] && choices->told[k / levels->rungs];
+    head->clauses = choices->clauses;
+    head->choices = choices->trees;
     head->class = sunder_report_hiding_classes(lines->report, &head->classes);
 }
 
-static bool put_head(gis_proof_lines *lines, const gis_layer_input *input, FILE *to, gis_error *error)
+static bool put_head(gis_proof_lines *lines, const gis_layer_input *input, const gis_proof_choices *choices, FILE *to,
+                     gis_error *error)
 {
     sunder_layer_summary summary;
     sunder_report_summary(lines->report, &summary);
     gis_proof_head head = gis_proof_head_of(input, &summary);
     sunder_report_conflicts(lines->report, &head.conflicts);
     sunder_report_bound_trees(lines->report, &head.trees);
-    if (input->request->rules.hide || gis_levels_asked(&input->request->rules)) count_hiding(lines, input, &head);
+    if (input->request->rules.hide || gis_levels_asked(&input->request->rules))
+        count_hiding(lines, input, choices, &head);
     gis_proof_head_line(&lines->json, &head);
     return gis_proof_print(&lines->json, to, error);
 }
@@ -93,12 +97,7 @@ static bool put_hidden(gis_proof_lines *lines, FILE *to, gis_error *error)
     size_t k = 0;
     for (size_t i = 0; i < lines->things.n && done; i++) {
         if (sunder_report_status(lines->report, i) != SUNDER_FEATURE_HIDDEN) continue;
-        gis_json_open(&lines->json, '{');
-        gis_json_put_size(&lines->json, "hidden", k++);
-        gis_proof_thing(lines, "fid", i);
-        gis_json_close(&lines->json, '}');
-        gis_json_raw(&lines->json, "\n");
-        lines->json.need_comma = false;
+        gis_proof_hidden_line(&lines->json, k++, call_feature(lines->things.of, i));
         done = gis_proof_print(&lines->json, to, error);
     }
     return done;
@@ -117,14 +116,16 @@ static bool put_larger(gis_proof_lines *lines, const gis_layer_input *input, gis
     return done;
 }
 
-/* Writes a line for each smaller shape. */
-static bool put_shapes(gis_proof_lines *lines, const gis_layer_input *input, gis_json *line, FILE *to, gis_error *error)
+/* Writes a line for each smaller shape of the features that clauses name, and of their blocks. */
+static bool put_shapes(gis_proof_lines *lines, const gis_layer_input *input, const bool *told, gis_json *line, FILE *to,
+                       gis_error *error)
 {
     bool done = true;
     size_t k = 0;
     const gis_levels *levels = &input->levels;
     for (size_t i = 0; i < levels->features; i++) {
         size_t level = 0;
+        if (!told[i]) continue;
         for (size_t rung = 0; rung < levels->rungs && done; rung++) {
             const sunder_shape *shape = gis_levels_shape(levels, i, rung);
             if (!shape) continue;
@@ -136,21 +137,20 @@ static bool put_shapes(gis_proof_lines *lines, const gis_layer_input *input, gis
 }
 
 /* Writes the proved clauses, and the trees of the bound of what is hidden. */
-static bool put_choices(gis_proof_lines *lines, gis_json *line, FILE *to, gis_error *error)
+static bool put_choices(gis_proof_lines *lines, const gis_proof_choices *choices, gis_json *line, FILE *to,
+                        gis_error *error)
 {
-    size_t n, proved = 0;
+    size_t n;
     const sunder_clause *clause = sunder_report_clauses(lines->report, &n);
-    const size_t trees = sunder_report_hiding_trees(lines->report)->trees;
     size_t *number = malloc((n + 1) * sizeof *number);
     bool done = number || gis_no_memory(error);
-    for (size_t k = 0; k < n && done; k++) {
-        if (!clause[k].proved) continue;
-        number[k] = proved;
-        gis_proof_clause(lines, &clause[k]);
-        done = put_line(lines, "clause", proved++, line, to, error);
+    for (size_t k = 0; k < choices->clauses && done; k++) {
+        number[choices->clause[k].tree] = k;
+        gis_proof_clause(lines, &clause[choices->clause[k].tree]);
+        done = put_line(lines, "clause", k, line, to, error);
     }
-    for (size_t k = 0; k < trees && done; k++) {
-        gis_proof_choice(lines, k, number);
+    for (size_t k = 0; k < choices->trees && done; k++) {
+        gis_proof_choice(lines, choices->tree[k].tree, number, false);
         done = put_line(lines, "choice", k, line, to, error);
     }
     free(number);
@@ -215,13 +215,16 @@ bool gis_proof_write(const gis_layer_input *input, const sunder_report *report, 
 {
     const gis_proof_things things = {input, input->n, call_feature, call_barrier, demands_of};
     gis_proof_lines lines;
+    gis_proof_choices choices = {0};
     gis_json line = {0};
-    const bool done = gis_proof_lines_begin(&lines, &things, report, error) && put_head(&lines, input, to, error) &&
+    const bool done = gis_proof_lines_begin(&lines, &things, report, error) &&
+                      gis_proof_choices_make(&lines, &choices, error) && put_head(&lines, input, &choices, to, error) &&
                       put_blocks(&lines, to, error) && put_larger(&lines, input, &line, to, error) &&
-                      put_hidden(&lines, to, error) && put_shapes(&lines, input, &line, to, error) &&
+                      put_hidden(&lines, to, error) && put_shapes(&lines, input, choices.told, &line, to, error) &&
                       put_rows(&lines, to, error) && put_conflicts(&lines, &line, to, error) &&
-                      put_trees(&lines, &line, to, error) && put_choices(&lines, &line, to, error);
+                      put_trees(&lines, &line, to, error) && put_choices(&lines, &choices, &line, to, error);
     gis_proof_lines_clear(&lines);
+    gis_proof_choices_clear(&choices);
     gis_json_clear(&line);
     return done;
 }

@@ -60,20 +60,36 @@ static void put_weight(gis_json *json, const sunder_hiding_share *share)
     gis_json_close(json, ']');
 }
 
-static void put_shares(gis_json *json, const sunder_hiding_share *share, size_t n, const size_t *clause)
+/* The numbers of clauses, and whether they get a mark. */
+typedef struct numbering {
+    const size_t *of;
+    bool marked;
+} numbering;
+
+static void put_number(gis_json *json, const numbering *number, size_t clause)
+{
+    if (number->marked) {
+        gis_json_raw(json, json->need_comma ? ", " : "");
+        gis_json_raw(json, (char[]){GIS_PROOF_MARK, '\0'});
+        json->need_comma = false;
+    }
+    gis_json_size(json, number->of[clause]);
+}
+
+static void put_shares(gis_json *json, const sunder_hiding_share *share, size_t n, const numbering *clause)
 {
     gis_json_key(json, "shares");
     gis_json_open(json, '[');
     for (size_t k = 0; k < n; k++) {
         gis_json_open(json, '[');
-        gis_json_size(json, clause[share[k].clause]);
+        put_number(json, clause, share[k].clause);
         put_weight(json, &share[k]);
     }
     gis_json_close(json, ']');
 }
 
 static void put_node(gis_proof_lines *lines, const sunder_hiding_node *node, const sunder_hiding_share *share,
-                     const size_t *clause)
+                     const numbering *clause)
 {
     gis_json *json = &lines->json;
     gis_json_open(json, '{');
@@ -81,15 +97,17 @@ static void put_node(gis_proof_lines *lines, const sunder_hiding_node *node, con
         gis_proof_thing(lines, "split", node->feature);
         gis_json_put_size(json, "level", node->level);
     } else if (node->kind == SUNDER_HIDING_NODE_UNMET) {
-        gis_json_put_size(json, "unmet", clause[node->clause]);
+        gis_json_key(json, "unmet");
+        put_number(json, clause, node->clause);
     } else {
         put_shares(json, share + node->share, node->shares, clause);
     }
     gis_json_close(json, '}');
 }
 
-void gis_proof_choice(gis_proof_lines *lines, size_t k, const size_t *clause)
+void gis_proof_choice(gis_proof_lines *lines, size_t k, const size_t *clause, bool within)
 {
+    const numbering number = {clause, within};
     const sunder_hiding_trees *trees = sunder_report_hiding_trees(lines->report);
     const sunder_hiding_tree *tree = &trees->tree[k];
     gis_json *json = &lines->json;
@@ -103,6 +121,6 @@ void gis_proof_choice(gis_proof_lines *lines, size_t k, const size_t *clause)
     gis_json_key(json, "nodes");
     gis_json_open(json, '[');
     for (size_t i = tree->node; i < tree->node + tree->nodes; i++)
-        put_node(lines, &trees->node[i], trees->share, clause);
+        put_node(lines, &trees->node[i], trees->share, &number);
     gis_json_close(json, ']');
 }

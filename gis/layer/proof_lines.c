@@ -451,6 +451,15 @@ void gis_proof_row_line(gis_json *json, size_t number, const int64_t name[2], co
     end_line(json);
 }
 
+void gis_proof_hidden_line(gis_json *json, size_t number, int64_t name)
+{
+    gis_json_open(json, '{');
+    gis_json_put_size(json, "hidden", number);
+    gis_json_key(json, "fid");
+    gis_json_signed(json, name);
+    end_line(json);
+}
+
 void gis_proof_line(gis_json *json, const char *key, size_t number, const char *rest)
 {
     gis_json_open(json, '{');

@@ -50,9 +50,11 @@ void gis_proof_larger(gis_proof_lines *lines, size_t feature, const sunder_shape
  * rung of the run. */
 void gis_proof_shape(gis_proof_lines *lines, size_t feature, size_t level, size_t rung, const sunder_shape *shape);
 /* The same for the text that follows the number of a clause, or of tree k of the bound of what is hidden.
- * clause: the numbers of the proved clauses in the file. */
+ * clause: the numbers of the proved clauses in the file. within: they are their numbers in the component, each of which
+ * gets the mark GIS_PROOF_MARK before it, since the numbers in the file are not known yet. */
+#define GIS_PROOF_MARK '#'
 void gis_proof_clause(gis_proof_lines *lines, const sunder_clause *clause);
-void gis_proof_choice(gis_proof_lines *lines, size_t k, const size_t *clause);
+void gis_proof_choice(gis_proof_lines *lines, size_t k, const size_t *clause, bool within);
 /* Writes `reason` and `crowded`. */
 void gis_proof_reason(gis_proof_lines *lines, sunder_reason reason, bool crowded);
 /* Writes the proof with its `within`. NULL: writes nothing. */
@@ -68,6 +70,19 @@ typedef struct gis_proof_place {
 } gis_proof_place;
 /* Computes the places of all trees, in the report's order; the caller frees *out with free(). */
 bool gis_proof_order(const gis_proof_lines *lines, gis_proof_place **out, size_t *n, gis_error *error);
+
+/* The order of clauses and choices, and the features of which smaller shapes are listed (proof_choices.c). A place is
+ * here the least feature of a component of clauses, the number in this component, and the number in the report. */
+typedef struct gis_proof_choices {
+    size_t *root;                   /* [n] the least feature of each feature's component */
+    bool *told;                     /* [n] a clause names the feature, or another one of its block */
+    gis_proof_place *clause, *tree; /* of the proved clauses, and of the trees of the bound, in order */
+    size_t clauses, trees;
+    size_t *number; /* [clauses of the report] the number of each proved one in its component */
+} gis_proof_choices;
+/* Clear *out also after a failure. */
+bool gis_proof_choices_make(const gis_proof_lines *lines, gis_proof_choices *out, gis_error *error);
+void gis_proof_choices_clear(gis_proof_choices *choices);
 
 /* ---- Complete lines ---------------------------------------------------------------------------------------------- */
 
@@ -91,6 +106,8 @@ void gis_proof_head_line(gis_json *json, const gis_proof_head *head);
 /* Begin and end the line of a block; between the two, the numbers of its members are written. */
 void gis_proof_block_begins(gis_json *json);
 void gis_proof_block_ends(gis_json *json);
+/* Makes the line of a hidden feature; name: the number that identifies it. */
+void gis_proof_hidden_line(gis_json *json, size_t number, int64_t name);
 /* Makes the line of two neighbours in a row; name: the numbers that identify them. */
 void gis_proof_row_line(gis_json *json, size_t number, const int64_t name[2], const sunder_row_pair *pair);
 /* Makes the line {"key":number, followed by `rest`. */

@@ -107,9 +107,7 @@ grep -q -- '--enlarge needs --min-size' err || fail "the message: $(cat err)"
 expect 2 separate h.gpkg x.gpkg --enlarge --min-size 0
 grep -q -- '--enlarge: --min-size 0 must be above 0' err || fail "the message: $(cat err)"
 expect 2 separate h.gpkg x.gpkg --enlarge --min-size=-1
-expect 2 separate h.gpkg x.gpkg --enlarge --min-size 3 --max-memory 1G --proof x.jsonl
 expect 2 separate h.gpkg x.gpkg --enlarge --min-size 3 --symbol disc:1
-expect 2 plan h.gpkg x --shards 2 --enlarge --min-size 3 --proof x.jsonl
 expect 2 check h.gpkg --enlarge --min-size 3
 grep -q -- '--enlarge is a rule for moves' err || fail "the message: $(cat err)"
 [[ ! -e x.gpkg ]] || fail "a refused call wrote something"

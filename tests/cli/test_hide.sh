@@ -87,10 +87,7 @@ expect 3 check planted.gpkg -l houses "${checks[@]}" --stats planted.json
 same "$(jq -c '[.moves.needless, .skipped]' planted.json)" '[1,3]' "planted:"
 expect 3 check c.gpkg -l houses "${plain[@]}" --before h.gpkg
 
-# Refused calls, and wrong classes.
-usage() { expect 2 "${@:2}" && grep -q -- "$1" err || fail "$*: $(cat err)"; }
-usage 'not with --max-memory and --proof' separate h.gpkg x.gpkg --hide --max-memory 1G --proof x.jsonl
-usage 'not in a plan with --proof' plan h.gpkg x.plan --shards 2 --hide --proof x.jsonl
+# Wrong classes.
 for value in -1 1.5 important; do
     printf 'WKT,class\n"POLYGON((0 0,1 0,1 1,0 0))",%s\n' "$value" | layer "wrong$value.gpkg" wrong POLYGON
     expect 1 separate "wrong$value.gpkg" x.gpkg --hide --hierarchy-field class

@@ -111,8 +111,6 @@ expect 2 separate h.gpkg x.gpkg "${words[@]}" --inset 2,1
 grep -q -- '--inset 2,1: lengths are above 0' err || fail "the message: $(cat err)"
 expect 2 separate h.gpkg x.gpkg "${words[@]}" --inset 0
 expect 2 separate h.gpkg x.gpkg "${words[@]}" --inset 1,x
-expect 2 plan h.gpkg x.plan --shards 2 "${words[@]}" --inset 1 --proof x.jsonl
-grep -q -- '--inset: not in a plan with --proof' err || fail "the message: $(cat err)"
 expect 2 check h.gpkg --inset 1
 grep -q -- '--inset is a rule for moves' err || fail "the message: $(cat err)"
 

@@ -66,8 +66,6 @@ cmp -s t.csv t4.csv || fail "other threads, another result"
 expect 2 separate h.gpkg x.gpkg --gap 0.5 --trim
 grep -q -- '--trim: features are cut back at barriers; give --barrier' err || fail "the message: $(cat err)"
 expect 2 separate h.gpkg x.gpkg "${words[@]}" --trim --crossed hide --trim-keep 1.5
-expect 2 separate h.gpkg x.gpkg "${words[@]}" --trim --crossed hide --max-memory 1G --proof x.jsonl
-grep -q -- '--trim: not with --max-memory and --proof' err || fail "the message: $(cat err)"
 
 # Many towns with slanted walls.
 /usr/bin/python3 -c 'from osgeo import ogr' 2>/dev/null || { echo "without GDAL's Python module: no towns"; finish; exit 0; }

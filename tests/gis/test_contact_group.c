@@ -8,10 +8,10 @@
 
 #include <cmocka.h>
 
+#include "base/disjoint_sets.h"
 #include "random.h"
 #include "scratch.h"
 #include "shards/parts/contact_group.h"
-#include "shards/parts/disjoint_sets.h"
 
 #include <math.h>
 #include <stdio.h>

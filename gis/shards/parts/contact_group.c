@@ -5,10 +5,10 @@
 
 #include "base/array.h"
 #include "base/core_error.h"
+#include "base/disjoint_sets.h"
 #include "base/interrupt.h"
 #include "geometry/gis_box.h"
 #include "shards/parts/box_pairs.h"
-#include "shards/parts/disjoint_sets.h"
 #include "shards/parts/part_memory.h"
 
 #include <stdlib.h>

@@ -1,8 +1,8 @@
 /* join.c: see join.h. */
 #include "shards/parts/join.h"
+#include "base/disjoint_sets.h"
 #include "shards/parts/border_chunks.h"
 #include "shards/parts/box_pairs.h"
-#include "shards/parts/disjoint_sets.h"
 
 #include "base/array.h"
 #include "base/interrupt.h"

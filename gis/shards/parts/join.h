@@ -21,6 +21,9 @@ typedef struct gis_row_place {
     double at[2];
 } gis_row_place;
 
+/* The first key of a line of the proof in the joined list. */
+static inline uint64_t gis_told_key(size_t kind, size_t first) { return (uint64_t)kind << 56 | first; }
+
 /* The joined result. A zeroed struct is empty. */
 typedef struct gis_joined {
     gis_sorted_results rows;      /* by feature: one row or one still each; a feature without an entry is as it would be
@@ -32,7 +35,9 @@ typedef struct gis_joined {
     gis_hiding hiding;            /* the sums of what is hidden, with the classes of: */
     sunder_hiding_class *class;   /* [hiding.classes] */
     size_t class_room;
-    gis_sorted_results trees;      /* by group (its first feature that moves) and place in the group */
+    gis_sorted_results trees; /* by group (its first feature that moves) and place in the group */
+    gis_sorted_results told; /* by kind, first feature and number: lines of the proof about what is hidden or smaller */
+    size_t tolds[GIS_TOLD_KINDS];  /* the numbers of these */
     gis_sorted_results neighbours; /* by the two features: neighbours in rows of houses */
     sunder_row_list row_list;      /* the rows that they form */
     gis_row_place *row_place;      /* [row_places] their features, by number */

@@ -1,7 +1,7 @@
 /* joined_lists.c: collects the results of worlds in lists sorted by feature, and in sums. Sums are exact, and are
  * rounded once. */
+#include "base/disjoint_sets.h"
 #include "shards/parts/border_chunks.h"
-#include "shards/parts/disjoint_sets.h"
 #include "shards/parts/join.h"
 
 #include "base/array.h"
@@ -75,6 +75,15 @@ static bool put_hidden(gathering *g, const gis_part_result *r, size_t k, gis_err
            gis_sorted_results_add(&g->out->hidden, r->hidden[k].index, 0, &g->one, error);
 }
 
+static bool put_told(gathering *g, const gis_part_result *r, size_t k, gis_error *error)
+{
+    const gis_part_told *told = &r->told[k];
+    gis_part_result_empty(&g->one);
+    return gis_part_copy_told(&g->one, r, k, error) &&
+           gis_part_file_fetch(g->file, g->files, &g->one, &g->one.told->line, error) &&
+           gis_sorted_results_add(&g->out->told, gis_told_key(told->kind, told->first), told->among, &g->one, error);
+}
+
 static bool put_neighbours(gathering *g, const gis_part_result *r, size_t k, gis_error *error)
 {
     const size_t *feature = r->neighbour[k].is.feature;
@@ -129,6 +138,7 @@ static bool put_world(gathering *g, const gis_part_result *r, const gis_part_wor
     for (size_t k = 0; k < w->pushes && done; k++) done = put_push(g, r, w->push + k, error);
     for (size_t k = 0; k < w->trees && done; k++) done = put_tree(g, r, w->tree + k, error);
     for (size_t k = 0; k < w->hiddens && done; k++) done = put_hidden(g, r, w->hidden + k, error);
+    for (size_t k = 0; k < w->tolds && done; k++) done = put_told(g, r, w->told + k, error);
     if (w->loose) return done;
     add_counts(&s->before, &w->before);
     add_counts(&s->after, &w->after);
@@ -292,6 +302,15 @@ static bool keep_once(void *user, const gis_sort_head *head, const gis_part_resu
     return true;
 }
 
+/* Keeps each line about what is hidden or smaller once, and counts them by kind. */
+static bool keep_told(void *user, const gis_sort_head *head, const gis_part_result *one, bool *keep, gis_error *error)
+{
+    gathering *g = user;
+    if (!keep_once(user, head, one, keep, error)) return false;
+    g->out->tolds[one->told->kind] += *keep;
+    return true;
+}
+
 static bool is_inside_overlap(const sunder_conflict *conflict)
 {
     return conflict->inside_block && conflict->kind == SUNDER_CONFLICT_OVERLAP;
@@ -332,6 +351,8 @@ static bool sort_everything(gathering *g, gis_error *error)
     g->any = false;
     if (!gis_sorted_results_sort(&j->hidden, keep_once, g, error)) return false;
     g->any = false;
+    if (!gis_sorted_results_sort(&j->told, keep_told, g, error)) return false;
+    g->any = false;
     return gis_sorted_results_sort(&j->neighbours, keep_once, g, error);
 }
 
@@ -347,6 +368,7 @@ static bool begin_lists(gis_joined *j, const char *directory, gis_error *error)
            gis_sorted_results_begin(&j->pushes, directory, "pushes", error) &&
            gis_sorted_results_begin(&j->trees, directory, "trees", error) &&
            gis_sorted_results_begin(&j->hidden, directory, "hidden", error) &&
+           gis_sorted_results_begin(&j->told, directory, "told", error) &&
            gis_sorted_results_begin(&j->neighbours, directory, "neighbours", error);
 }
 
@@ -386,6 +408,7 @@ void gis_joined_clear(gis_joined *joined)
     gis_sorted_results_clear(&joined->pushes);
     gis_sorted_results_clear(&joined->trees);
     gis_sorted_results_clear(&joined->hidden);
+    gis_sorted_results_clear(&joined->told);
     gis_sorted_results_clear(&joined->larger);
     free(joined->class);
     gis_sorted_results_clear(&joined->neighbours);

@@ -35,6 +35,7 @@ static bool read_pairs(gis_joined *j, all_pairs *all, gis_error *error)
     if (!all->pair || !j->row_place) return gis_no_memory(error);
     while (gis_sorted_results_next(&j->neighbours, &any, error) && any) {
         const gis_part_neighbours *one = j->neighbours.one.neighbour;
+        if (one->hidden) continue;
         all->pair[all->n++] = one->is;
         for (int c = 0; c < 2; c++)
             j->row_place[n++] =

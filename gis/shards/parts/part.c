@@ -171,7 +171,8 @@ static const sunder_feature *demands_of(const void *of, size_t feature)
 static bool begin_lines(gis_part *p, gis_error *error)
 {
     const gis_proof_things things = {p, p->n, call_feature, call_barrier, demands_of};
-    return gis_proof_lines_begin(&p->lines, &things, p->report, error);
+    return gis_proof_lines_begin(&p->lines, &things, p->report, error) &&
+           gis_proof_choices_make(&p->lines, &p->choices, error);
 }
 
 /* ---- Separating -------------------------------------------------------------------------------------------------- */
@@ -321,6 +322,7 @@ void gis_part_clear(gis_part *p)
     free(p->decided);
     gis_barriers_list_clear(&p->barriers);
     gis_proof_lines_clear(&p->lines);
+    gis_proof_choices_clear(&p->choices);
     sunder_layer_free(p->layer);
     gis_levels_clear(&p->levels);
     sunder_report_free(p->report);

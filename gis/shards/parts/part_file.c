@@ -70,6 +70,7 @@ static bool write_lines(gis_part_file *file, gis_part_result *r, gis_part_chunk 
     chunk->lines_checksum = gis_checksum_of(0, r->line, r->lines);
     for (size_t k = 0; k < r->conflicts; k++) lies_in(&r->conflict[k].line, file, from);
     for (size_t k = 0; k < r->trees; k++) lies_in(&r->tree[k].line, file, from);
+    for (size_t k = 0; k < r->tolds; k++) lies_in(&r->told[k].line, file, from);
     r->lines = 0;
     return gis_disk_file_write(&file->file, r->line, (size_t)chunk->lines, error);
 }

@@ -35,7 +35,8 @@ typedef struct gis_part {
     sunder_layer *layer;
     gis_levels levels; /* the smaller shapes of the features, if they may have any */
     sunder_report *report;
-    gis_proof_lines lines; /* used if trees are kept */
+    gis_proof_lines lines; /* used if trees are kept, and so are: */
+    gis_proof_choices choices;
     unsigned run;
     gis_part_result *out;
 } gis_part;
@@ -62,7 +63,12 @@ bool gis_part_fill_tree(gis_part *p, const gis_proof_place *place, gis_error *er
 bool gis_part_fill_hidden(gis_part *p, size_t k, const sunder_clause *why, gis_error *error);
 /* Adds the component of clauses with this number in the report, and what it hides by class. */
 bool gis_part_fill_component(gis_part *p, size_t number, gis_error *error);
-bool gis_part_fill_neighbours(gis_part *p, const sunder_row_pair *pair, gis_error *error);
+bool gis_part_fill_neighbours(gis_part *p, const sunder_row_pair *pair, bool hidden, gis_error *error);
+/* Add the lines of the proof about the smaller shapes of feature k of the part, about a clause, and about a tree of the
+ * bound of what is hidden, if these are wanted. */
+bool gis_part_fill_shapes(gis_part *p, size_t k, gis_error *error);
+bool gis_part_fill_clause(gis_part *p, const gis_proof_place *place, gis_error *error);
+bool gis_part_fill_choice(gis_part *p, const gis_proof_place *place, gis_error *error);
 
 /* ---- part_worlds.c: adds the worlds that have a requested feature, and features in no world
  * ----------------------- */

@@ -19,6 +19,7 @@ static const gis_padding holes_of_component[] = {GIS_PADDING_BEHIND(sunder_hidin
 static const gis_padding holes_of_class[] = {GIS_PADDING_BETWEEN(sunder_hiding_class, hierarchy, hidden)};
 static const gis_padding holes_of_hidden[] = {GIS_PADDING_BETWEEN(gis_part_hidden, cost.hierarchy, cost.weight),
                                               GIS_PADDING_BEHIND(gis_part_hidden, forced)};
+static const gis_padding holes_of_neighbours[] = {GIS_PADDING_BEHIND(gis_part_neighbours, hidden)};
 static const gis_padding holes_of_still[] = {GIS_PADDING_BEHIND(gis_part_still, status)};
 
 #define HOLES(list) list, sizeof list / sizeof *list
@@ -43,10 +44,11 @@ static const struct list {
              LIST(component, components, HOLES(holes_of_component)),
              LIST(class, classes, HOLES(holes_of_class)),
              LIST(hidden, hiddens, HOLES(holes_of_hidden)),
+             LIST(told, tolds, NULL, 0),
              LIST(name, names, NULL, 0),
              LIST(still, stills, HOLES(holes_of_still)),
              LIST(link, links, NULL, 0),
-             LIST(neighbour, neighbours, NULL, 0),
+             LIST(neighbour, neighbours, HOLES(holes_of_neighbours)),
              LIST(corner, corners, NULL, 0),
              LIST(end, ends, NULL, 0),
              LIST(text, texts, NULL, 0),
@@ -176,6 +178,14 @@ bool gis_part_copy_tree(gis_part_result *to, const gis_part_result *from, size_t
     return true;
 }
 
+bool gis_part_copy_told(gis_part_result *to, const gis_part_result *from, size_t told, gis_error *error)
+{
+    gis_part_told new = from->told[told];
+    if (!copy_line(to, from, &new.line, error) || !GIS_PART_MORE(to, told, tolds, 1, error)) return false;
+    to->told[to->tolds++] = new;
+    return true;
+}
+
 bool gis_part_copy_still(gis_part_result *to, const gis_part_result *from, size_t still, gis_error *error)
 {
     if (!GIS_PART_MORE(to, still, stills, 1, error)) return false;
@@ -207,7 +217,8 @@ gis_part_world gis_part_world_at(const gis_part_result *result)
                             .tree = result->trees,
                             .component = result->components,
                             .class = result->classes,
-                            .hidden = result->hiddens};
+                            .hidden = result->hiddens,
+                            .told = result->tolds};
 }
 
 bool gis_part_copy_world(gis_part_result *to, const gis_part_result *from, size_t world, gis_error *error)
@@ -225,11 +236,13 @@ bool gis_part_copy_world(gis_part_result *to, const gis_part_result *from, size_
     new.component = at.component;
     new.class = at.class;
     new.hidden = at.hidden;
+    new.told = at.told;
     for (size_t k = 0; k < w->rows && done; k++) done = gis_part_copy_row(to, from, w->row + k, error);
     for (size_t k = 0; k < w->conflicts && done; k++) done = gis_part_copy_conflict(to, from, w->conflict + k, error);
     for (size_t k = 0; k < w->pushes && done; k++) done = gis_part_copy_push(to, from, w->push + k, error);
     for (size_t k = 0; k < w->trees && done; k++) done = gis_part_copy_tree(to, from, w->tree + k, error);
     for (size_t k = 0; k < w->hiddens && done; k++) done = gis_part_copy_hidden(to, from, w->hidden + k, error);
+    for (size_t k = 0; k < w->tolds && done; k++) done = gis_part_copy_told(to, from, w->told + k, error);
     if (!done || !GIS_PART_MORE(to, footprint, footprints, w->footprints, error) ||
         !GIS_PART_MORE(to, bound, bounds, w->bounds, error) ||
         !GIS_PART_MORE(to, component, components, w->components, error) ||
@@ -257,7 +270,8 @@ bool gis_part_copy_all(gis_part_result *to, const gis_part_result *from, gis_err
 /* ---- Bytes ------------------------------------------------------------------------------------------------------- */
 
 typedef struct stored_head {
-    uint32_t count[LISTS], unverified;
+    uint64_t unverified;
+    uint32_t count[(LISTS + 1) / 2 * 2];
 } stored_head;
 
 _Static_assert(sizeof(stored_head) % 8 == 0, "lists are aligned");
@@ -315,7 +329,7 @@ bool gis_part_result_load(gis_part_result *to, const unsigned char *from, size_t
 
 uint64_t gis_part_result_form(void)
 {
-    uint64_t form = 6; /* version: raise it when the meaning of a member changes */
+    uint64_t form = 7; /* version: raise it when the meaning of a member changes */
     for (int k = 0; k < LISTS; k++) form = gis_checksum_of(form, &lists[k].size, sizeof lists[k].size);
     return form;
 }

@@ -45,7 +45,7 @@ typedef struct gis_part_world {
     unsigned run;        /* number of the separation that found it */
     size_t row, rows;    /* its items in the result's lists: `rows` of them, from `row` on; the same for: */
     size_t footprint, footprints, bound, bounds, conflict, conflicts, push, pushes, tree, trees, component, components,
-        class, classes, hidden, hiddens;
+        class, classes, hidden, hiddens, told, tolds;
     sunder_conflict_counts before, after;
     size_t thin, clusters, clusters_optimal;
 } gis_part_world;
@@ -71,6 +71,15 @@ typedef struct gis_part_tree {
     size_t first, among; /* the group's first feature that moves, and the tree's place in the group */
     gis_part_line line;
 } gis_part_tree;
+
+/* A line of the proof about what is hidden or smaller: a smaller shape of a feature, at a level; a proved clause, or a
+ * tree of the bound, with the least feature of its component, and its number there. */
+typedef enum gis_part_told_kind { GIS_TOLD_SHAPE, GIS_TOLD_CLAUSE, GIS_TOLD_CHOICE, GIS_TOLD_KINDS } gis_part_told_kind;
+typedef struct gis_part_told {
+    size_t first, among;
+    gis_part_line line;
+    size_t kind; /* a gis_part_told_kind */
+} gis_part_told;
 
 typedef struct gis_part_push {
     sunder_push is;
@@ -108,6 +117,7 @@ typedef struct gis_part_neighbours {
     sunder_row_pair is;
     int64_t fid[2];
     double anchor[2][2];
+    bool hidden; /* one of the two is hidden: no neighbours in the result, but proofs may name them */
 } gis_part_neighbours;
 
 /* The results of one part, or of several, concatenated. A zeroed struct is empty. */
@@ -123,6 +133,7 @@ typedef struct gis_part_result {
     sunder_hiding_component *component;
     sunder_hiding_class *class; /* what the components of a world hide, class by class */
     gis_part_hidden *hidden;
+    gis_part_told *told;
     gis_part_name *name;
     gis_part_still *still;
     gis_part_link *link;
@@ -131,11 +142,11 @@ typedef struct gis_part_result {
     size_t *end;
     char *text;
     char *line; /* the bytes of all lines of the proof */
-    size_t worlds, rows, footprints, bounds, conflicts, blockers, pushes, trees, components, classes, hiddens, names,
-        stills, links, neighbours, corners, ends, texts, lines;
+    size_t worlds, rows, footprints, bounds, conflicts, blockers, pushes, trees, components, classes, hiddens, tolds,
+        names, stills, links, neighbours, corners, ends, texts, lines;
     struct {
-        size_t world, row, footprint, bound, conflict, blocker, push, tree, component, class, hidden, name, still, link,
-            neighbour, corner, end, text, line;
+        size_t world, row, footprint, bound, conflict, blocker, push, tree, component, class, hidden, told, name, still,
+            link, neighbour, corner, end, text, line;
     } room;
     bool unverified; /* the core did not verify the result of some part */
 } gis_part_result;
@@ -174,6 +185,7 @@ bool gis_part_copy_conflict(gis_part_result *to, const gis_part_result *from, si
 bool gis_part_copy_push(gis_part_result *to, const gis_part_result *from, size_t push, gis_error *error);
 bool gis_part_copy_tree(gis_part_result *to, const gis_part_result *from, size_t tree, gis_error *error);
 bool gis_part_copy_hidden(gis_part_result *to, const gis_part_result *from, size_t hidden, gis_error *error);
+bool gis_part_copy_told(gis_part_result *to, const gis_part_result *from, size_t told, gis_error *error);
 bool gis_part_copy_still(gis_part_result *to, const gis_part_result *from, size_t still, gis_error *error);
 bool gis_part_copy_link(gis_part_result *to, const gis_part_result *from, size_t link, gis_error *error);
 bool gis_part_copy_neighbours(gis_part_result *to, const gis_part_result *from, size_t neighbours, gis_error *error);

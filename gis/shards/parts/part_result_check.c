@@ -42,7 +42,8 @@ static bool are_worlds(const gis_part_result *r, uint64_t places)
             !range_is_within(w->conflict, w->conflicts, r->conflicts) ||
             !range_is_within(w->push, w->pushes, r->pushes) || !range_is_within(w->tree, w->trees, r->trees) ||
             !range_is_within(w->component, w->components, r->components) ||
-            !range_is_within(w->class, w->classes, r->classes) || !range_is_within(w->hidden, w->hiddens, r->hiddens))
+            !range_is_within(w->class, w->classes, r->classes) || !range_is_within(w->hidden, w->hiddens, r->hiddens) ||
+            !range_is_within(w->told, w->tolds, r->tolds))
             return false;
     }
     return true;
@@ -120,10 +121,12 @@ static bool are_others(const gis_part_result *r, uint64_t places)
             return false;
     for (size_t k = 0; k < r->neighbours; k++)
         if (!(r->neighbour[k].is.feature[0] < r->neighbour[k].is.feature[1]) ||
-            !is_place(r->neighbour[k].is.feature[1], places))
+            !is_place(r->neighbour[k].is.feature[1], places) || !is_flag(&r->neighbour[k].hidden))
             return false;
     for (size_t k = 0; k < r->trees; k++)
         if (!is_line(r, &r->tree[k].line)) return false;
+    for (size_t k = 0; k < r->tolds; k++)
+        if (!is_line(r, &r->told[k].line) || r->told[k].kind >= GIS_TOLD_KINDS) return false;
     return true;
 }
 

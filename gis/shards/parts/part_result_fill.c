@@ -172,6 +172,42 @@ bool gis_part_fill_hidden(gis_part *p, size_t k, const sunder_clause *why, gis_e
     return true;
 }
 
+/* Adds the line that was made. */
+static bool add_told(gis_part *p, gis_part_told_kind kind, size_t first, size_t among, gis_error *error)
+{
+    gis_part_told to = {.first = gis_part_index_of(p, first), .among = among, .kind = kind};
+    if (!take_line(p, &to.line, error) || !GIS_PART_MORE(p->out, told, tolds, 1, error)) return false;
+    p->out->told[p->out->tolds++] = to;
+    return true;
+}
+
+bool gis_part_fill_shapes(gis_part *p, size_t k, gis_error *error)
+{
+    size_t level = 0;
+    bool ok = true;
+    if (!p->choices.told || !p->choices.told[k]) return true;
+    for (size_t rung = 0; rung < p->levels.rungs && ok; rung++) {
+        const sunder_shape *shape = gis_levels_shape(&p->levels, k, rung);
+        if (!shape) continue;
+        gis_proof_shape(&p->lines, k, ++level, rung, shape);
+        ok = add_told(p, GIS_TOLD_SHAPE, k, level, error);
+    }
+    return ok;
+}
+
+bool gis_part_fill_clause(gis_part *p, const gis_proof_place *place, gis_error *error)
+{
+    size_t n;
+    gis_proof_clause(&p->lines, &sunder_report_clauses(p->report, &n)[place->tree]);
+    return add_told(p, GIS_TOLD_CLAUSE, place->first, place->among, error);
+}
+
+bool gis_part_fill_choice(gis_part *p, const gis_proof_place *place, gis_error *error)
+{
+    gis_proof_choice(&p->lines, place->tree, p->choices.number, true);
+    return add_told(p, GIS_TOLD_CHOICE, place->first, place->among, error);
+}
+
 bool gis_part_fill_component(gis_part *p, size_t number, gis_error *error)
 {
     gis_part_result *out = p->out;
@@ -187,9 +223,9 @@ bool gis_part_fill_component(gis_part *p, size_t number, gis_error *error)
     return true;
 }
 
-bool gis_part_fill_neighbours(gis_part *p, const sunder_row_pair *pair, gis_error *error)
+bool gis_part_fill_neighbours(gis_part *p, const sunder_row_pair *pair, bool hidden, gis_error *error)
 {
-    gis_part_neighbours to = {.is = *pair};
+    gis_part_neighbours to = {.is = *pair, .hidden = hidden};
     for (int c = 0; c < 2; c++) {
         const gis_spool_feature *f = &p->item[pair->feature[c]].feature;
         sunder_shape_anchor(f->demands.shape, to.anchor[c]);

@@ -51,16 +51,25 @@ static bool add_undecided_world(gis_part *p, gis_error *error)
     return true;
 }
 
-bool gis_part_fill_rows(gis_part *p, gis_error *error)
+/* Adds the pairs of which a requested feature is decided. */
+static bool add_pairs(gis_part *p, const sunder_row_pair *pair, size_t n, bool hidden, gis_error *error)
 {
-    size_t n;
-    const sunder_row_pair *pair = sunder_report_row_pairs(p->report, &n);
-    if (!p->layout->how.rows) return true;
-    decide(p);
     for (size_t k = 0; k < n; k++) {
         const size_t f = pair[k].feature[0], g = pair[k].feature[1];
         const bool first = p->item[f].wanted && p->decided[f], second = p->item[g].wanted && p->decided[g];
-        if ((first || second) && !gis_part_fill_neighbours(p, &pair[k], error)) return false;
+        if ((first || second) && !gis_part_fill_neighbours(p, &pair[k], hidden, error)) return false;
     }
-    return add_undecided_world(p, error);
+    return true;
+}
+
+bool gis_part_fill_rows(gis_part *p, gis_error *error)
+{
+    size_t n, hidden;
+    const sunder_row_pair *pair = sunder_report_row_pairs(p->report, &n);
+    const sunder_row_pair *with_hidden = sunder_report_hidden_row_pairs(p->report, &hidden);
+    if (!p->layout->how.rows) return true;
+    decide(p);
+    return add_pairs(p, pair, n, false, error) &&
+           (!p->layout->how.keep_trees || add_pairs(p, with_hidden, hidden, true, error)) &&
+           add_undecided_world(p, error);
 }

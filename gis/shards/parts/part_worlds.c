@@ -82,11 +82,20 @@ static int by_world(const void *a, const void *b)
 
 /* The items of all worlds, sorted by world, and the place reached in each list. */
 typedef struct belongings {
-    belonging *feature, *conflict, *push, *tree, *component;
+    belonging *feature, *conflict, *push, *tree, *component, *clause, *choice;
     const sunder_clause **reason; /* [features] why each is hidden; NULL for others */
     gis_proof_place *place;       /* [trees]; NULL: no trees are kept */
-    size_t features, conflicts, pushes, trees, components, f, c, p, t, h;
+    size_t features, conflicts, pushes, trees, components, f, c, p, t, h, l, o;
 } belongings;
+
+/* Lists the places of clauses or choices by world; NULL: memory is out. */
+static belonging *list_places(const gis_part *p, const gis_proof_place *place, size_t n)
+{
+    belonging *list = malloc((n + 1) * sizeof *list);
+    for (size_t k = 0; k < n && list; k++) list[k] = (belonging){sunder_report_world(p->report, place[k].first), k};
+    if (list && n) qsort(list, n, sizeof *list, by_world);
+    return list;
+}
 
 static bool list_belongings(const gis_part *p, belongings *all, gis_error *error)
 {
@@ -101,7 +110,10 @@ static bool list_belongings(const gis_part *p, belongings *all, gis_error *error
     all->push = malloc((all->pushes + 1) * sizeof *all->push);
     all->component = malloc((all->components + 1) * sizeof *all->component);
     all->reason = gis_hidden_reasons(p->report, p->n);
-    if (!all->feature || !all->conflict || !all->push || !all->tree || !all->component || !all->reason)
+    all->clause = list_places(p, p->choices.clause, p->choices.clauses);
+    all->choice = list_places(p, p->choices.tree, p->choices.trees);
+    if (!all->clause || !all->choice || !all->feature || !all->conflict || !all->push || !all->tree ||
+        !all->component || !all->reason)
         return gis_no_memory(error);
     for (size_t k = 0; k < p->n; k++) all->feature[k] = (belonging){sunder_report_world(p->report, k), k};
     for (size_t k = 0; k < all->conflicts; k++)
@@ -147,8 +159,22 @@ static bool add_members(gis_part *p, belongings *all, size_t number, gis_error *
     return true;
 }
 
-static void pass_by(belongings *all, size_t number)
+/* Adds the lines of the proof about what is hidden or smaller. */
+static bool add_told(gis_part *p, const belongings *all, size_t number, gis_error *error)
 {
+    for (size_t k = all->f; k < all->features && all->feature[k].world == number; k++)
+        if (!gis_part_fill_shapes(p, all->feature[k].at, error)) return false;
+    for (size_t k = all->l; k < p->choices.clauses && all->clause[k].world == number; k++)
+        if (!gis_part_fill_clause(p, &p->choices.clause[all->clause[k].at], error)) return false;
+    for (size_t k = all->o; k < p->choices.trees && all->choice[k].world == number; k++)
+        if (!gis_part_fill_choice(p, &p->choices.tree[all->choice[k].at], error)) return false;
+    return true;
+}
+
+static void pass_by(const gis_part *p, belongings *all, size_t number)
+{
+    while (all->l < p->choices.clauses && all->clause[all->l].world == number) all->l++;
+    while (all->o < p->choices.trees && all->choice[all->o].world == number) all->o++;
     while (all->f < all->features && all->feature[all->f].world == number) all->f++;
     while (all->c < all->conflicts && all->conflict[all->c].world == number) all->c++;
     while (all->p < all->pushes && all->push[all->p].world == number) all->p++;
@@ -195,7 +221,7 @@ static bool add_world(gis_part *p, size_t number, belongings *all, gis_error *er
     for (size_t k = 0; k < w->bounds; k++) out->bound[out->bounds++] = bound[w->bound + k];
     for (size_t k = all->f; k < all->features && all->feature[k].world == number; k++)
         if (!add_given(p, all->feature[k].at, number, &to, error)) return false;
-    if (!add_members(p, all, number, error)) return false;
+    if (!add_members(p, all, number, error) || !add_told(p, all, number, error)) return false;
     for (size_t k = all->f; k < all->features && all->feature[k].world == number; k++)
         p->decided[all->feature[k].at] = to.complete;
     to.rows = out->rows - to.row;
@@ -205,6 +231,7 @@ static bool add_world(gis_part *p, size_t number, belongings *all, gis_error *er
     to.components = out->components - to.component;
     to.classes = out->classes - to.class;
     to.hiddens = out->hiddens - to.hidden;
+    to.tolds = out->tolds - to.told;
     if (!GIS_PART_MORE(out, world, worlds, 1, error)) return false;
     out->world[out->worlds++] = to;
     return true;
@@ -240,7 +267,7 @@ bool gis_part_fill_worlds(gis_part *p, gis_error *error)
     bool done = list_belongings(p, &all, error);
     for (size_t k = 0; k < n && done; k++) {
         if (is_wanted(p, &all, k)) done = add_world(p, k, &all, error);
-        pass_by(&all, k);
+        pass_by(p, &all, k);
     }
     done = done && add_loose(p, &all, error);
     free(all.feature);
@@ -249,6 +276,8 @@ bool gis_part_fill_worlds(gis_part *p, gis_error *error)
     free(all.tree);
     free(all.component);
     free(all.reason);
+    free(all.clause);
+    free(all.choice);
     free(all.place);
     return done;
 }

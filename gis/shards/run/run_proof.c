@@ -1,7 +1,7 @@
 /* run_proof.c: writes the file of --proof for a layer that was separated in parts; its lines are in sorted order on
  * disk. */
+#include "shards/run/run_proof.h"
 #include "layer/proof.h"
-#include "shards/run/shard_run.h"
 
 #include <stdlib.h>
 
@@ -31,19 +31,27 @@ static bool put_blocks(const gis_shard_run *p, gis_json *json, FILE *to, gis_err
     return done;
 }
 
-static bool put_rows(gis_shard_run *p, gis_json *json, FILE *to, gis_error *error)
+/* Writes the pairs of neighbours with a hidden end, or those without; *number counts them. */
+static bool put_pairs(gis_shard_run *p, bool hidden, size_t *number, gis_json *json, FILE *to, gis_error *error)
 {
     gis_sorted_results *pairs = &p->joined.neighbours;
     bool any = true;
     gis_sorted_results_rewind(pairs);
-    for (size_t k = 0; gis_sorted_results_next(pairs, &any, error) && any; k++) {
+    while (gis_sorted_results_next(pairs, &any, error) && any) {
         const gis_part_neighbours *one = pairs->one.neighbour;
         int64_t name[2];
+        if (one->hidden != hidden) continue;
         for (int c = 0; c < 2; c++) name[c] = p->facts.source.fids_unique ? one->fid[c] : (int64_t)one->is.feature[c];
-        gis_proof_row_line(json, k, name, &one->is);
+        gis_proof_row_line(json, (*number)++, name, &one->is);
         if (!gis_proof_print(json, to, error)) return false;
     }
     return !any;
+}
+
+static bool put_rows(gis_shard_run *p, gis_json *json, FILE *to, gis_error *error)
+{
+    size_t number = 0;
+    return put_pairs(p, false, &number, json, to, error) && put_pairs(p, true, &number, json, to, error);
 }
 
 static bool put_conflicts(gis_shard_run *p, gis_json *json, FILE *to, gis_error *error)
@@ -74,17 +82,39 @@ static bool put_trees(gis_shard_run *p, gis_json *json, FILE *to, gis_error *err
     return !any;
 }
 
+static gis_proof_head head_of(const gis_shard_run *p, const gis_layer_input *input, const sunder_layer_summary *summary)
+{
+    const gis_joined *j = &p->joined;
+    gis_proof_head head = gis_proof_head_of(input, summary);
+    head.conflicts = j->conflicts.n;
+    head.trees = j->trees.n;
+    head.hide = p->request->rules.hide || gis_levels_asked(&p->request->rules);
+    head.hidden = j->hidden.n;
+    head.enlarge = p->request->rules.enlarge;
+    head.larger = p->facts.enlarged;
+    head.shapes = j->tolds[GIS_TOLD_SHAPE];
+    head.clauses = j->tolds[GIS_TOLD_CLAUSE];
+    head.choices = j->tolds[GIS_TOLD_CHOICE];
+    head.class = j->hiding.class;
+    head.classes = j->hiding.classes;
+    return head;
+}
+
 bool gis_shard_run_proof(gis_shard_run *parts, const gis_layer_input *input, const sunder_layer_summary *summary,
                          FILE *to, gis_error *error)
 {
     gis_json json = {0};
-    gis_proof_head head = gis_proof_head_of(input, summary);
-    head.conflicts = parts->joined.conflicts.n;
-    head.trees = parts->joined.trees.n;
+    gis_telling t = {0};
+    const gis_proof_head head = head_of(parts, input, summary);
     gis_proof_head_line(&json, &head);
-    const bool done = gis_proof_print(&json, to, error) && put_blocks(parts, &json, to, error) &&
-                      put_rows(parts, &json, to, error) && put_conflicts(parts, &json, to, error) &&
-                      put_trees(parts, &json, to, error);
+    const bool done = gis_telling_begin(parts, &t, error) && gis_proof_print(&json, to, error) &&
+                      put_blocks(parts, &json, to, error) && gis_run_proof_larger(parts, &json, to, error) &&
+                      gis_run_proof_hidden(parts, &json, to, error) &&
+                      gis_run_proof_told(&t, GIS_TOLD_SHAPE, &json, to, error) && put_rows(parts, &json, to, error) &&
+                      put_conflicts(parts, &json, to, error) && put_trees(parts, &json, to, error) &&
+                      gis_run_proof_told(&t, GIS_TOLD_CLAUSE, &json, to, error) &&
+                      gis_run_proof_told(&t, GIS_TOLD_CHOICE, &json, to, error);
+    free(t.first);
     gis_json_clear(&json);
     return done;
 }
