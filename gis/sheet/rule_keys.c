@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Options of these groups are rules, except those that are about a run or have a key of their own. */
+/* The options about features are rules. Options about a run are not, and some have a key of their own. */
 static bool is_rule(const gis_option *option)
 {
     static const gis_option_id more[] = {OPT_EFFORT, OPT_SEED, OPT_INVALID},
@@ -71,7 +71,7 @@ static bool set_rule(const gis_sheet *sheet, const gis_option *option, struct js
             if (!one) gis_fail_usage(&why, "must be texts or numbers");
         }
     } else if (!flag && !one && !(json_object_is_type(value, json_type_array) && join(value, &text))) {
-        return gis_sheet_fail(sheet, error, place, "must be a text, a number, or an array of these");
+        return gis_sheet_fail(sheet, error, place, "must be a text, a number, or an array");
     } else {
         ok = gis_options_set(options, option->id, flag ? NULL : one ? one : gis_text_get(&text), &why);
     }

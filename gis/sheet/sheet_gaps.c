@@ -1,4 +1,4 @@
-/* sheet_gaps.c: the gaps of classes: rules "between" two classes, of which the last that matches a pair counts. */
+/* sheet_gaps.c: the gaps of classes: rules "between" two classes. The last rule that matches a pair counts. */
 #include "sheet/sheet_inner.h"
 
 #include "base/spelling.h"

@@ -2,8 +2,8 @@
 sheet, with distances by GEOS.
 
 make TOWN.gpkg SHEET.json SEED   writes houses, roads and points, and a sheet with gaps by classes
-judge RESULT.gpkg TOWN.gpkg SHEET.json   prints the number of pairs, of those that are too near, and of those that are
-                                         listed; names each pair that is too near and not listed
+judge RESULT.gpkg TOWN.gpkg SHEET.json   prints four numbers: all pairs, the pairs that are too near, how many of them
+                                         are listed, and all listed pairs; names each that is too near and not listed
 """
 import json
 import random
