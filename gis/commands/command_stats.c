@@ -38,7 +38,6 @@ void gis_json_conflict_counts(gis_json *out, const sunder_conflict_counts *count
 void gis_json_sheet(gis_json *out, const gis_options *options)
 {
     if (!options->sheet) return;
-    gis_json_line(out);
     gis_json_key(out, "spec");
     gis_json_raw(out, options->sheet);
 }

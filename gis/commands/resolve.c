@@ -206,7 +206,8 @@ gis_destinations gis_resolve_destinations(const gis_options *options)
                            .stats = options->text[OPT_STATS],
                            .report = options->text[OPT_REPORT],
                            .proof = options->text[OPT_PROOF],
-                           .trace = options->text[OPT_TRACE]};
+                           .trace = options->text[OPT_TRACE],
+                           .sheet = options->text[OPT_SPEC]};
     for (size_t i = 0; i + 1 < options->command->most; i++) to.input[i] = options->operand[i];
     static const gis_option_id shapes[] = {OPT_SHAPE, OPT_ROBOT, OPT_SYMBOL};
     for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++) to.shape[i] = options->text[shapes[i]];

@@ -317,7 +317,7 @@ static void print_shrunk(const gis_separate_run *run, const gis_hiding *all)
 {
     bool any = false;
     for (int kind = 0; kind < GIS_RUNGS; kind++) {
-        if (!gis_rung_asked(&run->request.rules, kind)) continue;
+        if (!gis_rung_asked(&run->request.rules, (gis_rung)kind)) continue;
         printf("%s %zu, ", rung_word[kind], all->on_rung[kind]);
         any = true;
     }

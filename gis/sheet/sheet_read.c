@@ -32,6 +32,13 @@ static size_t line_of(const char *text, size_t offset)
     return line;
 }
 
+/* Fails if there is text after what was parsed, which ends at `end`. */
+static bool check_end(const gis_sheet *sheet, const char *text, size_t end, gis_error *error)
+{
+    const size_t length = strlen(text), at = end < length ? end : length, rest = at + strspn(text + at, " \t\r\n");
+    return !text[rest] || gis_fail_usage(error, "%s: line %zu: text after the end", sheet->path, line_of(text, rest));
+}
+
 static bool parse(gis_sheet *sheet, gis_error *error)
 {
     gis_text text = {0};
@@ -45,6 +52,7 @@ static bool parse(gis_sheet *sheet, gis_error *error)
                                 line_of(gis_text_get(&text), json_tokener_get_parse_end(tokener)),
                                 json_tokener_error_desc(why));
     }
+    if (ok) ok = check_end(sheet, gis_text_get(&text), json_tokener_get_parse_end(tokener), error);
     if (tokener) json_tokener_free(tokener);
     gis_text_clear(&text);
     if (ok && !json_object_is_type(sheet->root, json_type_object))
@@ -170,6 +178,7 @@ bool gis_sheet_apply(gis_options *options, gis_sheet *out, gis_error *error)
     out->gaps.rule = out->rule;
     out->gaps.of_barrier = out->of_barrier;
     if (out->gaps.rules) options->gap_classes = &out->gaps;
+    options->given[OPT_SPEC] = false; /* what the sheet says is given now, and a plan stores that */
     return options->given[OPT_PRINT_SPEC] || gis_options_finish(options, error);
 }
 

@@ -38,6 +38,7 @@ static bool check_texts(const gis_destinations *to, gis_error *error)
         read = read || text_operand_names(to->input[i], to->output);
     for (size_t i = 0; to->output && i < N_OF(to->shape); i++)
         read = read || text_operand_names(to->shape[i], to->output);
+    read = read || (to->output && operand_names(to->sheet, to->output));
     return !read || gis_fail(error, "%s is an input; give another output", to->output);
 }
 
@@ -51,6 +52,8 @@ static bool check_file(const gis_destinations *to, const char *option, const cha
     for (size_t i = 0; i < N_OF(to->shape); i++)
         if (text_operand_names(to->shape[i], path))
             return gis_fail_usage(error, "%s %s: that is an input; give another file", option, path);
+    if (operand_names(to->sheet, path))
+        return gis_fail_usage(error, "%s %s: that is an input; give another file", option, path);
     if (operand_names(to->output, path))
         return gis_fail_usage(error, "%s %s: that is the output; give another file", option, path);
     if (!gis_link_may_be_followed(path, option, error)) return false;

@@ -18,6 +18,7 @@ typedef struct gis_destinations {
     const char *input[2]; /* the operands that are read (data sources, texts, @FILEs); NULL after the last */
     const char *shape[3]; /* the values of options that take a SHAPE (text or @FILE), so that no result
                            * replaces such a file; each may be NULL */
+    const char *sheet;    /* the file of --spec; NULL: none */
 } gis_destinations;
 
 /* Checks the destinations before the work, so that a run does not fail at its end. Fails if two of the files of

@@ -47,6 +47,7 @@ expect 0 plan --spec one.json plan.dir --shards 2 -q --allow-conflicts
 for k in 1 2; do expect 0 separate --shard $k plan.dir -q; done
 expect 0 merge plan.dir merged.gpkg -q
 cmp -s by_sheet.gpkg merged.gpkg || fail "the plan of a sheet has other bytes"
+grep -r -q one.json plan.dir && fail "a plan needs the sheet again"
 expect 0 separate --spec one.json --print-spec --gap 1 --no-blocks --scale 5000
 same "$(jq -c '[.scale, .layers[0].gap, .layers[0].no_blocks, .layers[1].width]' out)" '[5000,"1",true,4]' 'the effective sheet:'
 "$SUNDER" --spec-schema >schema.json || fail "--spec-schema"
@@ -86,6 +87,12 @@ wrong 'follow' '.layers[1].role = "follow"'
 printf '{"layers": [\n1 2]}' >wrong.json
 expect 2 separate --spec wrong.json no.gpkg
 grep -q 'wrong.json: line 2' err || fail "$(cat err)"
+{ cat one.json && echo 'and more'; } >wrong.json
+expect 2 separate --spec wrong.json no.gpkg
+grep -q 'text after the end' err || fail "$(cat err)"
+cp one.json kept.json
+expect 2 separate --spec kept.json no.gpkg --stats kept.json
+cmp -s one.json kept.json || fail "the statistics replaced the sheet"
 expect 1 separate --spec none.json no.gpkg
 expect 2 separate --spec one.json town.gpkg no.gpkg
 grep -q 'leave out INPUT' err || fail "$(cat err)"
