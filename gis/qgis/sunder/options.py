@@ -124,7 +124,7 @@ OPTIONS = (
     Option("--links", SOURCE, ("separate",), "Lines from old to new places, along which features prefer to move",
            "Between the starts of lines the move is interpolated. An earlier result goes before it, and fields go before both."),
     Option("--links-radius", LENGTH, ("separate",), "Distance from the starts of lines up to which they matter",
-           "Less from half of it on; 0: no limit.", 0),
+           "Less from half of it on. Empty: no limit."),
     # ---- No room ----
     Option("--hide", FLAG, ("separate",), "Leave out features that cannot be given room",
            "As few as possible, with a proved lower bound. They stay in the layer, with 1 in sunder_inv.", False),
