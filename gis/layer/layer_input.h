@@ -46,7 +46,7 @@ typedef struct gis_layer_shaping gis_layer_shaping; /* in shapes.c */
 typedef struct gis_previous {
     double *move;  /* [2 n] the former moves; 0 for features that are new */
     size_t *of;    /* [n] the number of the feature in that result; SIZE_MAX: it is new */
-    bool *edited;  /* [n] its geometry is another one than at the time of that result */
+    bool *edited;  /* [n] its geometry has changed since that result */
     bool *relaxed; /* [n] it was edited or stood near a place that is empty now, and is free to go back */
     size_t gone;   /* the number of its features that the layer does not have */
 } gis_previous;

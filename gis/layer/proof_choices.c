@@ -34,7 +34,7 @@ static bool make_room(const gis_proof_lines *lines, size_t clauses, gis_proof_ch
     return true;
 }
 
-/* Marks the features of all blocks of which a clause names one. */
+/* Marks all features of each block that has a feature named by a clause. */
 static void mark_told(const gis_proof_lines *lines, const sunder_clause *clause, size_t n, bool *told)
 {
     const size_t features = lines->things.n;

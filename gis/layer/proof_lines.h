@@ -50,8 +50,8 @@ void gis_proof_larger(gis_proof_lines *lines, size_t feature, const sunder_shape
  * rung of the run. */
 void gis_proof_shape(gis_proof_lines *lines, size_t feature, size_t level, size_t rung, const sunder_shape *shape);
 /* The same for the text that follows the number of a clause, or of tree k of the bound of what is hidden.
- * clause: the numbers of the proved clauses in the file. within: they are their numbers in the component, each of which
- * gets the mark GIS_PROOF_MARK before it, since the numbers in the file are not known yet. */
+ * clause: the numbers of the proved clauses in the file. within: the numbers count within the component, and the mark
+ * GIS_PROOF_MARK stands before each, since the numbers in the file are not known yet. */
 #define GIS_PROOF_MARK '#'
 void gis_proof_clause(gis_proof_lines *lines, const sunder_clause *clause);
 void gis_proof_choice(gis_proof_lines *lines, size_t k, const size_t *clause, bool within);
@@ -71,8 +71,8 @@ typedef struct gis_proof_place {
 /* Computes the places of all trees, in the report's order; the caller frees *out with free(). */
 bool gis_proof_order(const gis_proof_lines *lines, gis_proof_place **out, size_t *n, gis_error *error);
 
-/* The order of clauses and choices, and the features of which smaller shapes are listed (proof_choices.c). A place is
- * here the least feature of a component of clauses, the number in this component, and the number in the report. */
+/* The order of clauses and choices, and the features whose smaller shapes are listed (proof_choices.c). A place here
+ * has the least feature of a component of clauses, the number in this component, and the number in the report. */
 typedef struct gis_proof_choices {
     size_t *root;                   /* [n] the least feature of each feature's component */
     bool *told;                     /* [n] a clause names the feature, or another one of its block */

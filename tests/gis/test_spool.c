@@ -158,7 +158,7 @@ typedef struct reading {
     bool found[MOST];
 } reading;
 
-/* Is the shape before the feature became larger the one that was put? Its box is a part of that of the record. */
+/* Compares the feature's shape before it became larger with the one that was put, and joins its box to `box`. */
 static void join_given(const sunder_shape *put, const gis_spool_feature *feature, double box[4])
 {
     sunder_shape *given;

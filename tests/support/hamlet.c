@@ -135,7 +135,7 @@ static void choose_preferred(rng *r, hamlet *t, double unit)
     }
 }
 
-/* Gaps on a grid, of which some are equal, and some 0. */
+/* Gaps on a grid. Some are equal, and some are 0. */
 static void choose_classes(rng *r, hamlet *t, double unit)
 {
     t->classes = true;

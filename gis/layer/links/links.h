@@ -34,7 +34,7 @@ typedef struct gis_links {
     double radius;            /* in units of the layer; INFINITY: there is none */
     double origin[2], cell;   /* the grid: a corner, and the side of a cell, a power of two */
     gis_grid_point *at;       /* [n] the starts on the grid */
-    gis_triangulation starts; /* of these */
+    gis_triangulation starts; /* the starts, triangulated */
     size_t hint;
 } gis_links;
 

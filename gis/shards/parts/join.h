@@ -37,7 +37,7 @@ typedef struct gis_joined {
     size_t class_room;
     gis_sorted_results trees; /* by group (its first feature that moves) and place in the group */
     gis_sorted_results told; /* by kind, first feature and number: lines of the proof about what is hidden or smaller */
-    size_t tolds[GIS_TOLD_KINDS];  /* the numbers of these */
+    size_t tolds[GIS_TOLD_KINDS];  /* the number of such lines of each kind */
     gis_sorted_results neighbours; /* by the two features: neighbours in rows of houses */
     sunder_row_list row_list;      /* the rows that they form */
     gis_row_place *row_place;      /* [row_places] their features, by number */

@@ -35,7 +35,7 @@ typedef struct gis_layout {
     double memory; /* approximate bytes that a process may take; a part that takes much more gets a warning. 0: no
                      * limit */
     const gis_layer_rules *rules;    /* borrowed: which features may be hidden or become smaller; set by the caller */
-    const gis_rung_lengths *lengths; /* borrowed: of these rules */
+    const gis_rung_lengths *lengths; /* borrowed: the lengths in the rules */
     bool by_places;   /* the proof identifies features by their places in the input, since FIDs are not unique */
     const char *name; /* borrowed: of the layer, for messages */
     double *explain, *verify; /* borrowed: the seconds of these stages are added here; NULL: not measured */

@@ -51,7 +51,7 @@ static bool add_undecided_world(gis_part *p, gis_error *error)
     return true;
 }
 
-/* Adds the pairs of which a requested feature is decided. */
+/* Adds each pair that has a feature both requested and decided. */
 static bool add_pairs(gis_part *p, const sunder_row_pair *pair, size_t n, bool hidden, gis_error *error)
 {
     for (size_t k = 0; k < n; k++) {
