@@ -113,6 +113,9 @@ typedef struct sunder_feature {
     int64_t block;             /* features with equal non-negative values move as one; -1: none */
     bool fixed;                /* the feature never moves, and the others keep their distance from it */
     bool ignored;              /* the feature never moves, and is in conflict with nothing */
+    bool joins_none;           /* the feature joins no block by touch or containment */
+    bool may_jump;             /* the feature may jump over all others, and they over it, as with allow_jumps */
+    bool in_no_row;            /* the feature is in no row that is found */
 } sunder_feature;
 
 /* Makes a layer of n features, freed by the caller with sunder_layer_free(). The array is copied, the shapes are not.
@@ -372,8 +375,9 @@ SUNDER_EXPERIMENTAL sunder_status sunder_layer_check_moves(const sunder_layer *b
  *
  * Unless allow_jumps is set, no feature jumps over another. Let A be a feature with the anchor a
  * (sunder_shape_anchor()) and the move t. Let B be another feature with the move s that is not ignored, is not in the
- * block of A, and does not contain a. Then the closed segment from a to a + t - s, not rounded, does not meet B at its
- * original place. So a feature in a yard that has no room for it keeps its conflict, whatever its limit.
+ * block of A, and does not contain a. Let neither have may_jump. Then the closed segment from a to a + t - s, not
+ * rounded, does not meet B at its original place. So a feature in a yard that has no room for it keeps its conflict,
+ * whatever its limit.
  *
  * No feature crosses a barrier that has sides. Let c be the side anchor of the feature, and t its move. Then the closed
  * segment from c to c + t meets no line of the barrier, except lines on which c lies, and no edge of its areas that has

@@ -184,6 +184,12 @@ static void test_jumps(void **state)
     ask(60, 2, 3, HAMLET_NO_JUMPS, 3);
 }
 
+static void test_some_jump(void **state)
+{
+    (void)state;
+    ask(60, 2, 4, HAMLET_NO_JUMPS | HAMLET_SYMBOLS, 10);
+}
+
 static void test_sides(void **state)
 {
     (void)state;
@@ -300,6 +306,7 @@ int main(void)
         cmocka_unit_test(test_four_and_five),
         cmocka_unit_test(test_barriers),
         cmocka_unit_test(test_jumps),
+        cmocka_unit_test(test_some_jump),
         cmocka_unit_test(test_sides),
         cmocka_unit_test(test_all_rules),
         cmocka_unit_test(test_preferred),

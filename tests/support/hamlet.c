@@ -182,6 +182,7 @@ void hamlet_found(rng *r, hamlet *t, size_t n, int kinds)
     if (kinds & HAMLET_PREFERRED) choose_preferred(r, t, unit);
     if (kinds & (HAMLET_BARRIERS_TOO | HAMLET_SIDES)) found_barriers(r, t, x, y, unit, kinds);
     if (kinds & HAMLET_CLASSED) choose_classes(r, t, unit);
+    for (size_t k = 0; k < n && kinds & HAMLET_SYMBOLS; k++) t->house[k].may_jump = rng_once_in(r, 2);
 }
 
 /* ---- Conversion to layers ---- */
@@ -229,6 +230,7 @@ sunder_report *hamlet_separate(const hamlet *t, double effort)
         shape[k] = shape_of(h->xy, h->ring_end, h->rings);
         feature[k] = (sunder_feature){
             .shape = shape[k], .weight = h->weight, .max_shift = h->limit, .block = h->block, .fixed = h->fixed};
+        feature[k].may_jump = h->may_jump;
     }
     for (size_t k = 0; k < t->barriers; k++) {
         const hamlet_barrier *b = &t->barrier[k];
@@ -483,7 +485,7 @@ static void keep_from_jumps(posing *p, size_t a, size_t b)
     for (int turn = 0; turn < 2; turn++) {
         const size_t jumper = turn ? b : a, over = turn ? a : b;
         const house *h = &p->t->house[over];
-        bool holds = false;
+        bool holds = h->may_jump || p->t->house[jumper].may_jump;
         for (size_t i = 0; i < h->parts; i++)
             holds = holds || in_convex(h->part[i].xy, h->part[i].corners, p->anchor[jumper]);
         for (size_t i = 0; i < h->parts && !holds; i++)

@@ -33,7 +33,7 @@ typedef struct house {
     double weight, limit, preferred[2];
     int64_t block;
     uint32_t of; /* its class for gaps */
-    bool fixed;
+    bool fixed, may_jump;
 } house;
 
 /* A box, or a line, or a point. */
@@ -63,7 +63,8 @@ typedef enum hamlet_kind {
     HAMLET_NO_JUMPS = 2,
     HAMLET_SIDES = 4,     /* also barriers that may not be crossed; these meet no feature */
     HAMLET_PREFERRED = 8, /* features may prefer other places than their own */
-    HAMLET_CLASSED = 16   /* gaps depend on the classes of the two */
+    HAMLET_CLASSED = 16,  /* gaps depend on the classes of the two */
+    HAMLET_SYMBOLS = 32   /* some features may jump, and be jumped over, though others may not */
 } hamlet_kind;
 
 /* Makes n features. kinds: the allowed kinds of features. */

@@ -111,7 +111,7 @@ static sunder_status find_holders(holder_search *l, uint32_t f, sunder_error *er
     keep_near_leaves(l, box);
     for (size_t k = 0; k < l->about.n && !status; k++) {
         const uint32_t g = model->tree.item[l->about.item[k]];
-        if (!sunder_i_is_barrier(model, g) && model->body_of[f] != model->body_of[g])
+        if (!sunder_i_is_barrier(model, g) && model->body_of[f] != model->body_of[g] && !sunder_i_may_jump(model, f, g))
             status = test_neighbour(l, f, g, &clear, err);
     }
     model->clear[f] = clear;
@@ -200,6 +200,18 @@ static sunder_status find_anchors(void *context, size_t begin, size_t end, sunde
     return SUNDER_OK;
 }
 
+/* Notes which features may jump. Returns false if memory is out. */
+static bool note_jumpers(sunder_i_model *model)
+{
+    for (size_t f = 0; f < model->features; f++) {
+        if (!sunder_i_demands_on(model, (uint32_t)f)->may_jump) continue;
+        if (!model->may_jump) model->may_jump = sunder_i_calloc(model->features, sizeof *model->may_jump);
+        if (!model->may_jump) return false;
+        model->may_jump[f] = true;
+    }
+    return true;
+}
+
 sunder_status sunder_i_model_anchor(sunder_i_model *model, sunder_error *err)
 {
     const size_t n = model->features;
@@ -207,15 +219,16 @@ sunder_status sunder_i_model_anchor(sunder_i_model *model, sunder_error *err)
     if (status || model->rules.jumps) return status;
     model->anchor_at = sunder_i_calloc(2 * n, sizeof *model->anchor_at);
     model->clear = sunder_i_calloc(n, sizeof *model->clear);
-    if (!model->anchor_at || !model->clear) return sunder_i_failure_cause(err);
+    if (!model->anchor_at || !model->clear || !note_jumpers(model)) return sunder_i_failure_cause(err);
     status = sunder_i_parallel(model->rules.threads, n, SUNDER_I_GRAIN_BOXES, find_anchors, model, err);
     for (size_t b = 0; b < model->bodies && !status; b++)
         if (!sunder_i_keep_anchors(model, &model->body[b])) status = sunder_i_failure_cause(err);
     return status ? status : find_all_holders(model, err);
 }
 
-bool sunder_i_is_held(const sunder_i_model *model, uint32_t f, uint32_t g)
+bool sunder_i_may_pass(const sunder_i_model *model, uint32_t f, uint32_t g)
 {
     const sunder_i_id_pair pair = {f, g};
+    if (!sunder_i_is_barrier(model, g) && sunder_i_may_jump(model, f, g)) return true;
     return model->held_n && bsearch(&pair, model->held, model->held_n, sizeof pair, sunder_i_by_id_pair);
 }

@@ -29,6 +29,9 @@ static int by_demands(const sunder_feature *a, const sunder_feature *b)
     if (order == 0) order = by_double(a->max_shift, b->max_shift);
     if (order == 0) order = a->fixed - b->fixed;
     if (order == 0) order = a->ignored - b->ignored;
+    if (order == 0) order = a->joins_none - b->joins_none;
+    if (order == 0) order = a->may_jump - b->may_jump;
+    if (order == 0) order = a->in_no_row - b->in_no_row;
     return order ? order : a->block < b->block ? -1 : a->block > b->block;
 }
 

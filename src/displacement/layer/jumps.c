@@ -1,7 +1,8 @@
 /* Tests exactly which features that moved break the rule against jumps, the rule of sides or the rule of rows.
  *
  * A feature's anchor a moves straight from a to a + (t - s) relative to another feature, where t and s are the moves of
- * the two. It must not meet the other feature's original outline, unless the other feature contained it at the start.
+ * the two. It must not meet the other feature's original outline, unless the other feature contained it at the start or
+ * one of the two may jump.
  * If it does, then at some moment of both moves, made at constant speed, the anchor lies in the other feature, so the
  * boxes of the two paths meet. A tree of these boxes gives candidate pairs, and separation/straight_path.c decides. For
  * the rule of sides the model's tree gives the parts of barriers near the path of a side anchor, and sides.c
@@ -50,6 +51,8 @@ sunder_status sunder_i_jumps_over(const sunder_i_jumps *jumps, const sunder_i_mo
                                   bool *over, sunder_error *err)
 {
     if (sunder_i_is_barrier(model, g)) return sunder_i_crosses_side(model, f, move_of(jumps, model, f), g, over, err);
+    *over = false;
+    if (sunder_i_may_jump(model, f, g)) return SUNDER_OK;
     const double *a = model->anchor_at + 2 * (size_t)f, *t = move_of(jumps, model, f), *s = move_of(jumps, model, g);
     const sunder_i_passage path = {{a[0], a[1]}, {t[0], t[1]}, {s[0], s[1]}};
     return sunder_i_passes(&path, sunder_i_thing_shape(model, g), over, err);

@@ -10,7 +10,8 @@
 static bool are_alike(const sunder_feature *f, const sunder_feature *g)
 {
     return f->weight == g->weight && f->max_shift == g->max_shift && f->block == g->block && f->fixed == g->fixed &&
-           f->ignored == g->ignored;
+           f->ignored == g->ignored && f->joins_none == g->joins_none && f->may_jump == g->may_jump &&
+           f->in_no_row == g->in_no_row;
 }
 
 /* Returns the number of runs of consecutive features with equal demands. */

@@ -19,7 +19,7 @@ void sunder_i_model_free(sunder_i_model *model)
     sunder_i_pieces_end(model);
     sunder_i_free_all(model->body_of, model->member, model->body);
     sunder_i_arena_free(&model->extras);
-    sunder_i_free_all(model->anchor_at, model->held, model->clear, model->diagonal_cover,
+    sunder_i_free_all(model->anchor_at, model->may_jump, model->held, model->clear, model->diagonal_cover,
                       model->diagonal_cover_vertices, model->diagonal_cover_corner, model->wall_cover, model->side,
                       model->side_anchor, model->side_at, model->side_anchors);
     for (size_t b = 0; model->whole && b < model->bodies; b++) sunder_shape_free(model->whole[b]);
@@ -227,6 +227,12 @@ static bool keep_reads(sunder_i_model *model)
     return model->read && model->went;
 }
 
+/* May the thing join a block by touch or containment? */
+static bool may_join(const sunder_i_model *model, uint32_t thing)
+{
+    return sunder_i_is_barrier(model, thing) || !sunder_i_demands_on(model, thing)->joins_none;
+}
+
 sunder_status sunder_i_model_join(sunder_i_model *model, const sunder_i_relations *relations, sunder_error *err)
 {
     const size_t n = model->things;
@@ -235,7 +241,8 @@ sunder_status sunder_i_model_join(sunder_i_model *model, const sunder_i_relation
     sunder_i_union_init(parent, n);
     for (size_t k = 0; k < relations->n; k++) {
         const sunder_i_relation *r = &relations->pair[k];
-        if ((r->touch && model->rules.touch_joins) || (r->contained && model->rules.containment_joins))
+        if (((r->touch && model->rules.touch_joins) || (r->contained && model->rules.containment_joins)) &&
+            may_join(model, r->a) && may_join(model, r->b))
             sunder_i_union_join(parent, r->a, r->b);
     }
     sunder_status status = unite_labelled(model->layer, parent) ? sunder_i_inclusions_init(model, relations, err)

@@ -177,6 +177,7 @@ struct sunder_i_model {
     sunder_i_wall_cover
         *wall_cover; /* covers of walls that members share, for the bodies they were requested for; wall_covers.c */
     size_t wall_covers;
+    bool *may_jump;         /* [features] the feature may jump over others, and they over it; NULL: none may */
     sunder_i_id_pair *held; /* pairs of a feature and a feature of another body that contains its anchor; sorted */
     size_t held_n;
     /* The next five are set only if barriers have sides: */
@@ -253,6 +254,18 @@ static inline const sunder_shape *sunder_i_thing_shape(const sunder_i_model *mod
     const sunder_layer *layer = model->layer;
     if (thing >= layer->n) return layer->part[thing - layer->n].shape;
     return (layer->lowered ? layer->given->at_level : layer->given->shape)[layer->number[thing]];
+}
+
+/* The demands on a feature, without its shape. */
+static inline const sunder_feature *sunder_i_demands_on(const sunder_i_model *model, uint32_t feature)
+{
+    return sunder_i_demands(model->layer->given, model->layer->number[feature]);
+}
+
+/* May one of the two features jump over the other, wherever they are? */
+static inline bool sunder_i_may_jump(const sunder_i_model *model, uint32_t f, uint32_t g)
+{
+    return model->may_jump && (model->may_jump[f] || model->may_jump[g]);
 }
 
 /* Returns the shape of a feature as it was given, from which its anchors are computed. */
@@ -532,8 +545,9 @@ size_t sunder_i_convex_hull(double *point, size_t n, double *out);
 /* Finds the anchors, if jumps are not allowed, and the side anchors (sides.h). Pieces must have been numbered
  * before. */
 sunder_status sunder_i_model_anchor(sunder_i_model *model, sunder_error *err);
-/* Does feature g, of another body, contain the anchor of feature f? Then f may leave g. */
-bool sunder_i_is_held(const sunder_i_model *model, uint32_t f, uint32_t g);
+/* May the anchor of feature f pass over thing g, of another body? It may if g contained it at the start, so that f may
+ * leave g, or if one of the two may jump. */
+bool sunder_i_may_pass(const sunder_i_model *model, uint32_t f, uint32_t g);
 
 /* ---- diagonal_covers.c ------------------------------------------------------------------------------------------- */
 

@@ -104,6 +104,7 @@ static sunder_status passes_either(const sunder_i_model *model, uint32_t f, cons
     const double *a = model->anchor_at + 2 * (size_t)f, *b = model->anchor_at + 2 * (size_t)g;
     const sunder_i_passage there = {{a[0], a[1]}, {t[0], t[1]}, {s[0], s[1]}},
                            back = {{b[0], b[1]}, {s[0], s[1]}, {t[0], t[1]}};
+    if (sunder_i_may_jump(model, f, g)) return SUNDER_OK;
     const sunder_status status = sunder_i_passes(&there, sunder_i_thing_shape(model, g), passes, err);
     return status || *passes ? status : sunder_i_passes(&back, sunder_i_thing_shape(model, f), passes, err);
 }

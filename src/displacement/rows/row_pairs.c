@@ -40,6 +40,13 @@ static bool are_wanted(const sunder_i_rows_wanted *w, uint32_t i, uint32_t j)
     return i != j && (!w->row || (w->row[i] == w->row[j] && w->path[i] != w->path[j]));
 }
 
+/* May the feature be in a row that is found, or its body in one that is given? */
+static bool may_be_in_row(const near_search *s, uint32_t f)
+{
+    return is_wanted(s->wanted, s->model->body_of[f]) &&
+           (s->wanted->row || !sunder_i_demands_on(s->model, f)->in_no_row);
+}
+
 /* Adds the pair of features f and g of different bodies if they are within reach. */
 static sunder_status add_if_near(const near_search *s, uint32_t f, uint32_t g, found *to, sunder_error *err)
 {
@@ -66,13 +73,13 @@ static sunder_status find_near(void *context, size_t begin, size_t end, sunder_e
     sunder_status status = SUNDER_OK;
     for (size_t f = begin; f < end && !status; f++) {
         double box[4];
-        if (!model->present[f] || !is_wanted(s->wanted, model->body_of[f])) continue;
+        if (!model->present[f] || !may_be_in_row(s, (uint32_t)f)) continue;
         near.n = 0;
         sunder_i_box_grow(sunder_i_thing_shape(model, f)->box, s->reach, box);
         if (!sunder_i_look_about(model, &model->tree, box, &near)) status = sunder_i_failure_cause(err);
         for (size_t k = 0; k < near.n && !status; k++) {
             const uint32_t g = near.item[k];
-            if (g <= f || sunder_i_is_barrier(model, g) || !is_wanted(s->wanted, model->body_of[g]) ||
+            if (g <= f || sunder_i_is_barrier(model, g) || !may_be_in_row(s, g) ||
                 !are_wanted(s->wanted, model->body_of[f], model->body_of[g]))
                 continue;
             status = add_if_near(s, (uint32_t)f, g, &s->found[begin / SUNDER_I_GRAIN_TESTS], err);

@@ -47,7 +47,7 @@ static bool may_cast(const sunder_i_listing *l, const sunder_i_body_piece *ancho
 static bool add_shadow_of(sunder_i_listing *l, const sunder_i_body_piece *anchor, const sunder_i_body_piece *piece,
                           bool swapped)
 {
-    if (!may_cast(l, anchor, piece, swapped) || sunder_i_is_held(l->model, anchor->feature, piece->feature))
+    if (!may_cast(l, anchor, piece, swapped) || sunder_i_may_pass(l->model, anchor->feature, piece->feature))
         return true;
     return sunder_i_listing_add_shadow(l, swapped ? piece : anchor, swapped ? anchor : piece);
 }
@@ -60,7 +60,7 @@ static bool add_diagonal_covers(sunder_i_listing *l, const sunder_i_body_piece *
     for (uint32_t k = other->has->diagonal_cover; k < other->has->diagonal_cover + other->has->diagonal_covers; k++)
         if (!add_shadow_of(l, anchor, &model->diagonal_cover[k], swapped)) return false;
     for (uint32_t k = other->has->wall_cover; k < other->has->wall_cover + other->has->wall_covers; k++)
-        if (!sunder_i_is_held(model, anchor->feature, model->wall_cover[k].other) &&
+        if (!sunder_i_may_pass(model, anchor->feature, model->wall_cover[k].other) &&
             !add_shadow_of(l, anchor, &model->wall_cover[k].piece, swapped))
             return false;
     return true;

@@ -48,7 +48,7 @@ static bool runs_into(const outlook *l, bool p_runs, const double shift[2], cons
         const sunder_i_body_piece *anchor = &(p_runs ? l->of_p : l->of_q)->anchor[m];
         for (uint32_t k = 0; k < other->pieces && anchor->corners; k++)
             if (ray_meets(&piece[k], shift, anchor->box, dir) &&
-                !sunder_i_is_held(l->model, anchor->feature, piece[k].feature))
+                !sunder_i_may_pass(l->model, anchor->feature, piece[k].feature))
                 return true;
     }
     return false;

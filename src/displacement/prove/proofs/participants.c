@@ -179,7 +179,7 @@ bool sunder_i_branching_shades(const sunder_i_branching *branching, uint32_t f, 
     double reach;
     return can_move(branching, f, g, &reach) && sunder_i_branching_is_path_heeded(branching, f) &&
            ((side && branching->subproblem->every_side) || sunder_i_branching_is_path_heeded(branching, g)) &&
-           (side || !sunder_i_is_held(branching->model, f, g));
+           (side || !sunder_i_may_pass(branching->model, f, g));
 }
 
 double sunder_i_branching_owed(const sunder_i_subproblem *subproblem, uint32_t f, uint32_t g)

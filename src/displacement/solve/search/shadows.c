@@ -53,7 +53,7 @@ static void visit_from(sunder_i_search *s, const sunder_i_body *p, const sunder_
             const sunder_i_body_piece *piece = &pieces->piece[l];
             const sunder_i_body_piece *a = swapped ? piece : anchor, *b = swapped ? anchor : piece;
             if (!sunder_i_shadow_may_reach(a->box, b->box, pair->offset, path) ||
-                sunder_i_is_held(model, f, piece->feature))
+                sunder_i_may_pass(model, f, piece->feature))
                 continue;
             pair->a = a;
             pair->b = b;

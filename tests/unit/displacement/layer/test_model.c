@@ -73,6 +73,44 @@ static void test_thin_out_of_range(void **state)
     scene_end(&s);
 }
 
+/* A symbol on a house stays apart from it, and no row that is found has it; the houses beside it join as ever. */
+static void test_joins_none(void **state)
+{
+    scene s;
+    scene_begin(&s, 1);
+    for (int i = 0; i < 2; i++) scene_add_box(&s, 10 * i, 0, 10, 10);
+    scene_add_box(&s, 4, 4, 2, 2);   /* in the first */
+    scene_add_box(&s, 20, 2, 10, 6); /* touches the second */
+    for (int alone = 0; alone < 2; alone++) {
+        s.feature[2].joins_none = s.feature[3].joins_none = alone;
+        scene_check(&s);
+        assert_int_equal(s.summary.blocks, 1);
+        assert_int_equal(sunder_report_block(s.report, 1), 0);
+        for (size_t i = 2; i < 4; i++) assert_int_equal(sunder_report_block(s.report, i), alone ? -1 : 0);
+        assert_int_equal(s.summary.before.contained, alone);
+        assert_int_equal(s.summary.before.too_close, alone);
+    }
+    s.feature[2].block = s.feature[1].block = 5; /* numbers of blocks hold in any case */
+    scene_check(&s);
+    assert_int_equal(sunder_report_block(s.report, 2), 0);
+    scene_end(&s);
+}
+
+static void test_in_no_row(void **state)
+{
+    scene s;
+    scene_begin(&s, 3);
+    s.options.rows = SUNDER_ROWS_FOUND;
+    for (int i = 0; i < 4; i++) scene_add_box(&s, 12 * i, 0, 10, 10);
+    for (int without = 0; without < 2; without++) {
+        s.feature[3].in_no_row = without;
+        scene_separate(&s);
+        assert_int_equal(s.summary.rows, 1);
+        assert_int_equal(s.summary.row_features, without ? 3 : 4);
+    }
+    scene_end(&s);
+}
+
 static void test_no_touch(void **state)
 {
     scene s;
@@ -90,7 +128,8 @@ static void test_no_touch(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_numbers), cmocka_unit_test(test_thin),
-                                       cmocka_unit_test(test_thin_out_of_range), cmocka_unit_test(test_no_touch)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_numbers),           cmocka_unit_test(test_thin),
+                                       cmocka_unit_test(test_thin_out_of_range), cmocka_unit_test(test_joins_none),
+                                       cmocka_unit_test(test_in_no_row),         cmocka_unit_test(test_no_touch)};
     return cmocka_run_group_tests_name("what joins features", tests, NULL, NULL);
 }
