@@ -137,11 +137,8 @@ static bool check_preferred(const gis_options *options, gis_error *error)
 /* Refuses what does not know gaps by classes. */
 static bool check_classes(const gis_options *options, gis_error *error)
 {
-    static const gis_option_id not_with[] = {OPT_PROOF, OPT_MAX_MEMORY};
-    for (size_t k = 0; k < sizeof not_with / sizeof *not_with && options->gap_classes; k++)
-        if (options->given[not_with[k]])
-            return gis_fail_usage(error, "--spec: gaps that depend on classes: not with %s",
-                                  gis_option_table[not_with[k]].names);
+    if (options->gap_classes && options->given[OPT_MAX_MEMORY])
+        return gis_fail_usage(error, "--spec: gaps that depend on classes: not with --max-memory");
     return !options->gap_classes || options->command->bit != GIS_PLAN ||
            gis_fail_usage(error, "--spec: gaps that depend on classes: not in a plan");
 }

@@ -102,6 +102,21 @@ static bool class_of(const gis_layer_input *input, size_t i, uint32_t *out, gis_
     return true;
 }
 
+bool gis_class_gaps_read(gis_layer_input *input, gis_error *error)
+{
+    if (!input->request->rules.classes) return true;
+    free(input->gap_class);
+    input->gap_class = malloc((input->n + 1) * sizeof *input->gap_class);
+    bool ok = input->gap_class || gis_no_memory(error);
+    for (size_t i = 0; ok && i < input->n; i++) ok = class_of(input, i, &input->gap_class[i], error);
+    return ok;
+}
+
+uint32_t gis_class_gaps_of_barrier(const gis_gap_classes *classes, size_t request)
+{
+    return classes->of_barrier ? classes->of_barrier[request] : 0;
+}
+
 bool gis_class_gaps_set(const gis_layer_input *input, const size_t *number, size_t n, sunder_layer *layer,
                         gis_error *error)
 {
@@ -111,9 +126,9 @@ bool gis_class_gaps_set(const gis_layer_input *input, const size_t *number, size
     if (!classes) return true;
     uint32_t *of = malloc((n + barriers->n + 1) * sizeof *of);
     bool ok = of || gis_no_memory(error);
-    for (size_t k = 0; ok && k < n; k++) ok = class_of(input, number ? number[k] : k, &of[k], error);
+    for (size_t k = 0; ok && k < n; k++) of[k] = input->gap_class[number ? number[k] : k];
     for (size_t k = 0; ok && k < barriers->n; k++)
-        of[n + k] = classes->of_barrier ? classes->of_barrier[barriers->feature[k].request] : 0;
+        of[n + k] = gis_class_gaps_of_barrier(classes, barriers->feature[k].request);
     const sunder_gaps gaps = {.classes = classes->classes,
                               .gap = input->class_tables.gap,
                               .full_gap = input->class_tables.full,

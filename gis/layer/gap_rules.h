@@ -28,6 +28,10 @@ typedef struct gis_gap_classes {
 bool gis_class_gaps_field(gis_layer_input *input, gis_error *error);
 /* Computes the tables of gaps, in the layer's units, once the gaps of the options are known. */
 bool gis_class_gaps_tables(gis_layer_input *input, gis_error *error);
+/* Sets input->gap_class to the class of each feature that was read. */
+bool gis_class_gaps_read(gis_layer_input *input, gis_error *error);
+/* The class of a barrier of this request. */
+uint32_t gis_class_gaps_of_barrier(const gis_gap_classes *classes, size_t request);
 /* Gives a layer of the core, with its barriers, the gaps. number: the index in `input` of each of its n features; NULL:
  * all of them in their order. */
 bool gis_class_gaps_set(const gis_layer_input *input, const size_t *number, size_t n, sunder_layer *layer,

@@ -133,7 +133,8 @@ static bool make_layer(gis_layer_input *input, gis_error *error)
         return gis_core_failed(error, gis_source_name(input->source), &why);
     if (sunder_layer_set_barriers(input->layer, input->barriers.barrier, input->barriers.n, &why) != SUNDER_OK)
         return gis_core_failed(error, "--barrier", &why);
-    if (!gis_class_gaps_set(input, NULL, input->n, input->layer, error)) return false;
+    if (!gis_class_gaps_read(input, error) || !gis_class_gaps_set(input, NULL, input->n, input->layer, error))
+        return false;
     if (sunder_layer_set_rows(input->layer, input->row, &why) != SUNDER_OK)
         return gis_core_failed(error, "--rows", &why);
     sunder_layer_set_crossed(input->layer, input->request->rules.crossed);
@@ -287,7 +288,9 @@ void gis_layer_drop_features(gis_layer_input *input)
     clear_previous(&input->previous);
     free(input->feature);
     free(input->row);
+    free(input->gap_class);
     input->row = NULL;
+    input->gap_class = NULL;
     input->shape = NULL;
     input->feature = NULL;
     input->n = 0;

@@ -80,6 +80,7 @@ typedef struct gis_layer_input {
     double barrier_reach; /* barriers are known within this distance of each feature */
     sunder_layer *layer;
     gis_layer_shaping *shaping;
+    uint32_t *gap_class; /* [n] the class of each feature for gaps; NULL: the gap is the same for all */
     int64_t *row; /* [n] the row of each feature by --rows FIELD, -1 for none; NULL: none are given */
     gis_previous previous;
     gis_class_tables class_tables;

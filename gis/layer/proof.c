@@ -1,5 +1,6 @@
 /* proof.c: see proof.h. */
 #include "layer/proof.h"
+#include "layer/gap_rules.h"
 #include "layer/levels.h"
 
 #include "layer/output.h"
@@ -25,11 +26,27 @@ static const sunder_feature *demands_of(const void *of, size_t feature)
     return &((const gis_layer_input *)of)->feature[feature];
 }
 
+static uint32_t class_of(const void *of, size_t thing)
+{
+    const gis_layer_input *input = of;
+    if (thing < input->n) return input->gap_class[thing];
+    return gis_class_gaps_of_barrier(input->request->rules.classes, gis_barrier_of(input, thing)->request);
+}
+
+static gis_proof_gaps gaps_of(const gis_layer_input *input)
+{
+    const gis_gap_classes *classes = input->request->rules.classes;
+    const gis_class_tables *tables = &input->class_tables;
+    if (!classes) return (gis_proof_gaps){0};
+    return (gis_proof_gaps){classes->classes, classes->name, tables->slack ? tables->gap : NULL, tables->full};
+}
+
 gis_proof_head gis_proof_head_of(const gis_layer_input *input, const sunder_layer_summary *summary)
 {
     return (gis_proof_head){.layer = gis_source_name(input->source),
                             .how = gis_layer_core_options(input),
                             .max_shift = input->max_shift,
+                            .gaps = gaps_of(input),
                             .summary = summary};
 }
 
@@ -213,7 +230,8 @@ static bool put_trees(gis_proof_lines *lines, gis_json *line, FILE *to, gis_erro
 
 bool gis_proof_write(const gis_layer_input *input, const sunder_report *report, FILE *to, gis_error *error)
 {
-    const gis_proof_things things = {input, input->n, call_feature, call_barrier, demands_of};
+    const gis_proof_things things = {
+        input, input->n, call_feature, call_barrier, demands_of, input->gap_class ? class_of : NULL};
     gis_proof_lines lines;
     gis_proof_choices choices = {0};
     gis_json line = {0};

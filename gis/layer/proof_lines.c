@@ -205,6 +205,18 @@ void gis_proof_conflict(gis_proof_lines *lines, size_t k)
 
 /* ---- Trees ------------------------------------------------------------------------------------------------------- */
 
+/* Writes the class of a thing for gaps, if gaps depend on classes. */
+static void put_class(gis_proof_lines *w, size_t thing)
+{
+    if (w->things.class) gis_json_put_size(&w->json, "class", w->things.class(w->things.of, thing));
+}
+
+static void put_barrier(gis_proof_lines *w, size_t barrier)
+{
+    gis_proof_thing(w, "barrier", barrier);
+    put_class(w, barrier);
+}
+
 static void put_members(gis_proof_lines *w, size_t thing)
 {
     const size_t n = w->things.n, first = w->first[gis_proof_block(w, thing)];
@@ -218,6 +230,7 @@ static void put_members(gis_proof_lines *w, size_t thing)
         put_feature(w, i);
         gis_json_put_double(&w->json, "weight", f->weight);
         gis_json_put_double(&w->json, "max_shift", f->max_shift);
+        put_class(w, i);
         if (f->shape) {
             double at[2];
             sunder_shape_anchor(f->shape, at);
@@ -234,7 +247,7 @@ static void put_body(gis_proof_lines *w, const sunder_bound_body *body)
     if (body->thing < w->things.n)
         put_members(w, body->thing);
     else
-        gis_proof_thing(w, "barrier", body->thing);
+        put_barrier(w, body->thing);
     gis_json_put_double(&w->json, "weight", body->weight);
     put_place(&w->json, "shift", body->shift[0], body->shift[1]);
     gis_json_close(&w->json, '}');
@@ -477,6 +490,29 @@ void gis_proof_class(gis_json *json, uint32_t hierarchy)
         gis_json_size(json, hierarchy);
 }
 
+/* Writes a table of gaps: of each class, those to the classes up to itself. */
+static void put_table(gis_json *json, const char *key, const double *table, size_t classes)
+{
+    gis_json_key(json, key);
+    gis_json_open(json, '[');
+    for (size_t i = 0; i < classes; i++) {
+        gis_json_open(json, '[');
+        for (size_t j = 0; j <= i; j++) gis_json_double(json, table[i * classes + j]);
+        gis_json_close(json, ']');
+    }
+    gis_json_close(json, ']');
+}
+
+static void put_gaps(gis_json *json, const gis_proof_gaps *gaps)
+{
+    gis_json_key(json, "classes");
+    gis_json_open(json, '[');
+    for (size_t k = 1; k < gaps->classes; k++) gis_json_string(json, gaps->name[k]);
+    gis_json_close(json, ']');
+    put_table(json, "gaps", gaps->full, gaps->classes);
+    if (gaps->gap) put_table(json, "least_gaps", gaps->gap, gaps->classes);
+}
+
 static void put_hiding(gis_json *json, const gis_proof_head *head)
 {
     gis_json_key(json, "hide");
@@ -506,6 +542,7 @@ void gis_proof_head_line(gis_json *json, const gis_proof_head *head)
     gis_json_put_string(json, "layer", head->layer);
     gis_json_put_double(json, "gap", fmax(head->how.gap, head->how.full_gap));
     if (head->how.full_gap > 0) gis_json_put_double(json, "least_gap", head->how.gap);
+    if (head->gaps.classes) put_gaps(json, &head->gaps);
     gis_json_put_double(json, "max_shift", head->max_shift);
     gis_json_put_string(json, "contained", sunder_containment_string(head->how.contained));
     gis_json_put_bool(json, "allow_jumps", head->how.allow_jumps);

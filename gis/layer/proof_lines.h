@@ -24,6 +24,7 @@ typedef struct gis_proof_things {
     /* the FID of a barrier, and the name of its layer */
     int64_t (*barrier)(const void *of, size_t thing, const char **layer);
     const sunder_feature *(*demands)(const void *of, size_t feature);
+    uint32_t (*class)(const void *of, size_t thing); /* for gaps; NULL: these do not depend on classes */
 } gis_proof_things;
 
 /* A zeroed struct is empty. */
@@ -86,10 +87,18 @@ void gis_proof_choices_clear(gis_proof_choices *choices);
 
 /* ---- Complete lines ---------------------------------------------------------------------------------------------- */
 
+/* Gaps by classes; zeroed: there is one gap. */
+typedef struct gis_proof_gaps {
+    size_t classes;
+    const char *const *name;  /* [classes] the first is none */
+    const double *gap, *full; /* [classes * classes] gap: NULL if it is nowhere less than the full one */
+} gis_proof_gaps;
+
 typedef struct gis_proof_head {
     const char *layer;
     sunder_layer_options how;
     double max_shift;
+    gis_proof_gaps gaps;
     const sunder_layer_summary *summary;
     size_t conflicts, trees;
     /* Only with options of this kind: the numbers of hidden features, of larger shapes (only with `enlarge`), of

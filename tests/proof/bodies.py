@@ -26,6 +26,7 @@ class Bodies:
     def read_body(self, told):
         if "barrier" in told:
             demand(self.problem.is_barrier(told["barrier"]), "there is no barrier", told["barrier"])
+            self.problem.demand_class(told["barrier"], told)
             return (told["barrier"],)
         fids = tuple(f["fid"] for f in told["features"])
         for f in told["features"]:

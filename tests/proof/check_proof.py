@@ -26,6 +26,7 @@ from prices import Prices  # noqa: E402
 from problem import Problem  # noqa: E402
 from result import Result
 from rows import Rows  # noqa: E402
+from sheets import Sheet  # noqa: E402
 
 
 def read_options(words):
@@ -38,6 +39,7 @@ def read_options(words):
     for name in ("sql", "dialect", "bbox", "input-crs", "where", "fixed-where", "ignore-where", "max-shift-field", "weight-field",
                  "rigid-where", "block-field", "symbol", "symbol-field", "symbol-size-field", "scale"):
         parser.add_argument("--" + name)
+    parser.add_argument("--spec", help="the sheet of the run; other options replace what it says")
     for name in ("max-shift", "touch-tolerance", "least-gap"):
         parser.add_argument("--" + name)
     parser.add_argument("--gap", default="0")
@@ -63,6 +65,9 @@ def read_options(words):
     for name in ("effort", "seed", "id-field", "threads"):
         parser.add_argument("--" + name, help="no part of what is claimed")
     options = parser.parse_args(words)
+    options.sheet = Sheet(options.spec) if options.spec else None
+    if options.sheet:
+        options = parser.parse_args([*options.sheet.words(), *words], argparse.Namespace(sheet=options.sheet))
     options.points = bool(options.symbol or options.symbol_field)  # symbols may always jump
     options.allow_jumps = options.allow_jumps or options.points
     options.rows = options.rows or ("no" if options.points else "auto")
@@ -74,14 +79,16 @@ def read_options(words):
     return options
 
 
-def check_header(head, options, layer):
+def check_header(head, options, layer, gaps):
+    told_of_classes = gaps.told() if gaps else {}
     for name, told, given in (("layer", head["layer"], layer), ("gap", head["gap"], options.gap),
                               ("least_gap", head.get("least_gap"), options.least_gap),
                               ("max_shift", head["max_shift"], options.max_shift),
                               ("contained", head["contained"], options.contained),
                               ("allow_jumps", head["allow_jumps"], options.allow_jumps),
                               ("row_stiffness", head.get("row_stiffness"), options.row_stiffness),
-                              ("ease", head.get("ease"), options.ease)):
+                              ("ease", head.get("ease"), options.ease),
+                              *((name, head.get(name), told_of_classes.get(name)) for name in ("classes", "gaps", "least_gaps"))):
         demand(told == given, f"the proof is of another problem: {name} is {told}, and not {given}")
 
 
@@ -107,7 +114,7 @@ class Checker:
     def check(self, lines):
         """lines: an iterable of JSON objects, read twice. Returns a description of what was verified."""
         proof, problem = form.Proof(lines, self.known), self.problem
-        check_header(proof.head, problem.options, problem.name)
+        check_header(proof.head, problem.options, problem.name, problem.gaps)
         problem.blocks.demand_all(proof.blocks)
         demand(("hide" in proof.head) == bool(self.hiding), "the proof is of another problem, with or without hidden features")
         demand(("larger" in proof.head.get("hide", {})) == bool(self.enlarging), "the proof is of another problem, with or without larger features")

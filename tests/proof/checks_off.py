@@ -44,6 +44,7 @@ UNSEEN = {
     "these are no neighbours in a row:": "a line that no statement uses makes none false; rows_proofs.py changes lines that are used",
     "neighbours in a row are missing:": "a file that leaves out neighbours proves its claims without their rule and springs, which is harder",
     "there is no rule for those that do not stand apart:": "no run has neighbours that overlap along their row",
+    "the class of": "the forged runs have one gap; class_proofs.py changes classes",
     "is no longer shared": "the judge knows no rungs; hide_mutations.py has a shape that this test alone refuses",
 }
 

@@ -51,8 +51,9 @@ class Eased:
         problem = self.problem
         limits = {body: problem.body_limit(body) for body in pair if not problem.is_barrier(body[0])}
         weight = min(sum(Fraction(problem.weight(fid)) for fid in body) for body, limit in limits.items() if limit != 0)
-        a, b = (body[0] for body in pair)
-        far = min((Fraction(v) for v in limits.values() if v), default=Fraction(problem.full(a, b)) / problem.lattice.unit)
+        one, other = pair
+        owed = min(problem.full(a, b) for a in one for b in other)
+        far = min((Fraction(v) for v in limits.values() if v), default=Fraction(owed) / problem.lattice.unit)
         return 4 * weight * far, weight * self.ease
 
     # ---- What pairs lack

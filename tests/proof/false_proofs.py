@@ -69,7 +69,7 @@ class Case:
             limit = problem.body_limit(members)
             if limit is not None and x * x + y * y > Fraction(limit) ** 2:
                 return False
-        bodies += [(key,) for key in problem.owed]
+        bodies += [(key,) for key in problem.half]
         pairs = [(p, q) for k, p in enumerate(bodies) for q in bodies[k + 1:] if problem.may_move(p[0]) or problem.may_move(q[0])]
         return all(self.pair_allows(told, places, p, q, self.relative(moves, p, q)) for p, q in pairs)
 

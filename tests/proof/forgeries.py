@@ -295,7 +295,7 @@ def asks_no_less(run, own, other):
     return (other.blocks.of == own.blocks.of and other.options.gap >= own.options.gap and
             all(most(other.limit(f)) <= most(own.limit(f)) for f in own.place) and
             (run.claims["bound"] == 0 or all(other.weight(f) >= own.weight(f) for f in own.place)) and
-            all(other.owed.get(k, -1) >= v for k, v in own.owed.items() if k in text) and
+            all(k in other.half and other.least_owed(k) >= own.least_owed(k) for k in own.half if k in text) and
             sides_in(run.lines) & own.sides <= other.sides)
 
 

@@ -171,9 +171,9 @@ conflict = members({"conflict": whole, "a": thing, "b": thing, "kind": one_of(KI
                    {"crowded": true, "inside_block": true, "within": positive,
                     "proof": nodes_of_proof})
 
-feature = members({"fid": integer, "weight": positive, "max_shift": or_null(not_negative)}, {"anchor": place})
+feature = members({"fid": integer, "weight": positive, "max_shift": or_null(not_negative)}, {"anchor": place, "class": whole})
 shared = {"weight": or_null(positive), "shift": place}
-body = either("barrier", members({"barrier": barrier, **shared}), members({"features": all_of(feature, 1), **shared}))
+body = either("barrier", members({"barrier": barrier, **shared}, {"class": whole}), members({"features": all_of(feature, 1), **shared}))
 piece = either("row", members({"i": whole, "j": whole, "a": thing, "b": thing, "row": true}, {"priced": true}),
                members({"i": whole, "j": whole, "a": thing, "b": thing, "A": corners, "B": corners},
                        {"shadow": true, "clearance": number}))
@@ -205,10 +205,12 @@ group = either("prices", members({**tree, "prices": prices}),
 row = members({"row": whole, "a": integer, "b": integer, "along": place, "apart": number})
 weights = all_of(pair_of(or_null(whole), integer))
 hide = members({"hidden": whole, "shapes": whole, "clauses": whole, "choices": whole, "bound": weights}, {"larger": whole})
+table = all_of(all_of(not_negative, 1), 1)
 head = members({"sunder_proof": whole, "layer": name, "gap": not_negative, "max_shift": or_null(not_negative),
                 "contained": one_of(("block", "ignore", "separate")), "allow_jumps": boolean,
                 "lower_bound": not_negative, "conflicts": whole, "trees": whole},
-               {"row_stiffness": all_of(not_negative, 2, 2), "ease": positive, "least_gap": not_negative, "hide": hide})
+               {"row_stiffness": all_of(not_negative, 2, 2), "ease": positive, "least_gap": not_negative, "hide": hide,
+                "classes": all_of(name), "gaps": table, "least_gaps": table})
 block = members({"block": all_of(integer, 2)})
 hidden = members({"hidden": whole, "fid": integer})
 polygons = all_of(all_of(all_of(place, 3), 1), 1)

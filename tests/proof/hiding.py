@@ -143,8 +143,8 @@ class Hiding:
     def demand_cut_back(self, fid, shape):
         """Fails unless the shape keeps its distance from barriers, except where its feature is crossed and kept."""
         problem, whole = self.problem, shape.whole()
-        for key, owed in problem.owed.items():
-            barrier = problem.whole(key)
+        for key in problem.half:
+            barrier, owed = problem.whole(key), problem.required(fid, key)
             crosses = plane.boxes_near(problem.whole(fid).box, barrier.box) and problem.crosses(fid, key)
             demand(not crosses or problem.options.crossed != "hide", "a smaller shape of", fid, ", which a line crosses")
             if not (crosses and problem.options.crossed == "keep"):

@@ -30,13 +30,13 @@ class HidingJudge:
     def layout(self):
         """Moves of the bodies with which no pair has a conflict, or None."""
         problem, places, drawn = self.problem, Places(self.problem), random.Random(1)
-        for fid, key in product(problem.place, problem.owed):
+        for fid, key in product(problem.place, problem.half):
             if problem.is_crossed(fid, key):
                 places.kinds[frozenset((fid, key))] = "barrier"
         present = [fid for fid in problem.place if fid not in problem.skipped and not problem.is_hidden(fid)]
         bodies = list(dict.fromkeys(problem.block(fid) for fid in present))
         for trial in range(TRIES):
-            moves = {(key,): (0, 0) for key in problem.owed}
+            moves = {(key,): (0, 0) for key in problem.half}
             for body in bodies:
                 moves[body] = self.move(drawn, body) if trial else (0, 0)
             if all(self.may(places, moves, p, q) for p, q in combinations(moves, 2)):

@@ -31,11 +31,12 @@ class Places:
         first, along, apart = self.rows[frozenset((one, other))]
         if apart <= 0:
             return True
-        gap = Fraction(self.problem.options.gap)
+        gap, least_gap = (min(Fraction(self.problem.gaps_of(a, b)[c]) for a in self.problem.blocks.block(one[0])
+                              for b in self.problem.blocks.block(other[0])) for c in (1, 0))
         pairs = [(a, b) for a in one for b in other]
         pushed = not any(self.kind(*p) for p in pairs if set(p) != asked) and \
             not all(self.pair_may(a, b, (0, 0), None, self.problem.full(a, b)) for a, b in pairs)
-        least = max(Fraction(self.problem.least_gap) - apart, min(0, gap - apart)) if pushed else min(0, gap - apart)
+        least = max(least_gap - apart, min(0, gap - apart)) if pushed else min(0, gap - apart)
         sign = 1 if first == one else -1
         return sign * (along[0] * u[0] + along[1] * u[1]) >= least * self.unit
 

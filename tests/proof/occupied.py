@@ -24,12 +24,12 @@ class Lattice:
     """A unit for a problem and a grid: the coordinates of the problem, half of the gap, and the side are multiples of
     it."""
 
-    def __init__(self, problem, side):
+    def __init__(self, problem, side, gap):
         own = problem.lattice
         exponent = side.numerator.bit_length() - side.denominator.bit_length()
         self.shift = max(1, FINE - exponent - own.k)
         self.side = 1 << (exponent + own.k + self.shift)
-        self.disc = polygon_in_disc(own(problem.least_gap) << (self.shift - 1))
+        self.disc = polygon_in_disc(own(gap) << (self.shift - 1))
 
     def ring(self, corners):
         return [(x << self.shift, y << self.shift) for x, y in corners]

@@ -50,7 +50,7 @@ class Prices(Bodies):
         occupies no square."""
         problem, side = self.problem, self.grid.side
         if (body, side) not in problem.occupied:
-            lattice = Lattice(problem, side)
+            lattice = Lattice(problem, side, problem.least_gap_of(body))
             squares = in_squares([p for fid in body for p in problem.things[fid].polygons], lattice)
             problem.occupied[body, side] = masses(squares, lattice) if squares else None
         return problem.occupied[body, side]

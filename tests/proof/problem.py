@@ -16,6 +16,7 @@ from nearly_in import hair_of
 from pieces import in_polygon, in_union
 from repair import area_of, members_of, repaired
 from reprojected import in_crs_of
+from sheets import Gaps
 from sources import Source
 from symbols import Symbols
 from validity import leave_out_broken
@@ -104,6 +105,7 @@ class Problem:
         source = Source(path, options.layer, options.sql, options.dialect, options.bbox, options.input_crs)
         layer = source.layer(options.where)
         self.crs, self.units = layer.crs, Units(layer.crs, options.scale)
+        self.gaps = None  # gaps by classes
         self.name, self.options = layer.name, self.in_units(options)
         options = self.options
         for name in (options.max_shift_field, options.weight_field, options.block_field, options.rows_field):
@@ -112,7 +114,7 @@ class Problem:
             leave_out_broken(layer, options.invalid)
             arcs.enlarge(layer)
         self.points = Symbols(options, self.units).place(layer) if options.points else {}
-        self.tolerance = options.touch_tolerance if options.touch_tolerance is not None else options.gap / 10
+        self.tolerance = options.touch_tolerance if options.touch_tolerance is not None else min(self.plain_gap, options.gap) / 10
         self.arcs = layer.arcs
         self.given, self.areas, self.median = {fid: f[1] for fid, f in layer.features.items()}, {}, None
         for fid, (attributes, polygons, _) in layer.features.items():  # lines of a collection are not part of a feature
@@ -120,10 +122,14 @@ class Problem:
         self.standing = {fid: f[1] for fid, f in layer.features.items()}
         fixed = source.fids(options.fixed_where)
         self.ignored = source.fids(options.ignore_where)
-        barriers = [b for spec in options.barrier for b in self.read_barriers(spec)]
+        told = list(map(split_spec, options.barrier)) or list(options.sheet.barriers() if options.sheet else ())
+        barriers = [b for words in told for b in self.read_barriers(words)]
+        self.classes = {fid: options.sheet.class_of(options.sheet.moving, f[0]) for fid, f in layer.features.items()} if self.gaps else {}
+        self.classes_there = set(self.classes.values())
         self.lattice = Lattice()
         self.least_gap = options.gap if options.least_gap is None else options.least_gap
-        for number in (options.gap, self.least_gap, self.tolerance):
+        tables = self.gaps.full + self.gaps.least if self.gaps else []
+        for number in (options.gap, self.least_gap, self.tolerance, *(v for row in tables for v in row)):
             self.lattice.hold(number)
         for polygons, lines in [f[1:] for f in layer.features.values()] + [b[1:3] for b in barriers]:
             for chain in lines + [r for p in polygons for r in p]:
@@ -131,7 +137,7 @@ class Problem:
                     self.lattice.hold(p[0])
                     self.lattice.hold(p[1])
         for barrier in barriers:
-            for number in (barrier[3] / 2, *barrier[4]):
+            for number in (barrier[3] / 2, *(barrier[4] or ())):
                 self.lattice.hold(number)
         self.rigid = source.fids(options.rigid_where)
         self.things = {fid: Thing(self.lattice, f[1], f[2]) for fid, f in layer.features.items()}
@@ -142,23 +148,24 @@ class Problem:
         self.attributes = {fid: f[0] for fid, f in layer.features.items()}
         self.place = {fid: k for k, fid in enumerate(layer.features)}
         self.skipped = self.ignored | {fid for fid, thing in self.things.items() if not any(o.area for o in thing.outlines)}
-        self.owed, self.full_of, self.fixed, self.limits = {}, {}, fixed, {}
+        self.half, self.own_gaps, self.fixed, self.limits = {}, {}, fixed, {}
         self.pairs, self.wholes = set(), {}
+        self.known_distances = {}
         self.listed = {}  # pairs: the kinds of their conflicts
         self.stood = {}   # pairs: see how_it_stood()
         self.given_wholes = {}
         self.crossed = {}  # pairs of a feature and a barrier: see is_crossed()
         self.occupied = {}  # bodies and sides of squares: see prices.py
         self.sides = set()
-        for key, polygons, lines, width, (gap, full), side in barriers:
+        for key, polygons, lines, width, own, side, of_class in barriers:
             if key in self.things:
                 raise NotRead(f"two barriers are called {key}")
             self.things[key] = Thing(self.lattice, polygons, lines)
-            self.owed[key], self.full_of[key] = (self.lattice(width / 2) + self.lattice(v) for v in (gap, full))
+            self.half[key], self.own_gaps[key], self.classes[key] = self.lattice(width / 2), own, of_class
             if side:
                 self.sides.add(key)
         # May pairs fall short of the full distance that they owe, at a price?
-        self.has_slack = self.least_gap < options.gap or any(self.owed[key] < self.full_of[key] for key in self.owed)
+        self.has_slack = (self.gaps.has_slack if self.gaps else self.least_gap < options.gap) or any(own and own[0] < own[1] for own in self.own_gaps.values())
         self.anchors, self.side_anchors = {}, {}
         self.rows = self.eased = None  # see rows.py, eased.py
         self.look_at(None)
@@ -168,29 +175,37 @@ class Problem:
     def in_units(self, options):
         """The options with lengths as doubles in units of the layer."""
         own = argparse.Namespace(**vars(options))
-        own.gap = self.units(own.gap, "--gap")
+        own.gap = self.plain_gap = self.units(own.gap, "--gap")
         for name in ("max_shift", "touch_tolerance", "least_gap", "symbol_size", "min_size"):
             if getattr(own, name) is not None:
                 setattr(own, name, self.units(getattr(own, name), "--" + name.replace("_", "-")))
+        if own.sheet and own.sheet.rules:
+            self.gaps = Gaps(own.sheet, self.units, own.gap, own.least_gap)
+            own.gap, most = (max(map(max, table)) for table in (self.gaps.full, self.gaps.least))
+            own.least_gap = most if self.gaps.has_slack else None
         own.inset = [self.units(length, "--inset") for length in own.inset.split(",") if length]
         return own
 
-    def read_barriers(self, spec):
-        words = split_spec(spec)
+    def read_barriers(self, words):
+        spec = words["path"]
         source = Source(words["path"], words.get("layer"))
         layer = source.layer(words["where"])
         features = layer.features.items() if layer.crs.is_same(self.crs) else in_crs_of(self.crs, layer, source)
         width_of_all = self.units(words.get("width", 0), "--barrier " + spec)
         gap = self.units(words["gap"], "--barrier " + spec) if "gap" in words else self.options.gap
         least = self.units(words["least"], "--barrier " + spec) if "least" in words else self.options.least_gap
-        gap = gap if least is None else min(least, gap), gap
+        own = (gap if least is None else min(least, gap), gap) if "gap" in words or "least" in words else None
+        by, widths = words.get("widths", (None, {}))
         for fid, (attributes, polygons, lines) in features:
             if words.get("as") == "boundary":
                 polygons, lines = [], lines + [r + r[:1] for p in polygons for r in p]
             width = geopackage.number_of(attributes, words["width-field"]) or 0.0 if "width-field" in words else width_of_all
+            if by and str(geopackage.value_of(attributes, by)) in widths:
+                width = self.units(widths[str(geopackage.value_of(attributes, by))], "--barrier " + spec)
+            of_class = self.options.sheet.class_of(words["of"], attributes) if "of" in words else 0
             if polygons or lines:
                 polygons = [repaired(p) for p in polygons]
-                yield f"{layer.name}:{fid}", polygons, lines, max(width, 0.0), gap, words.get("side", "yes") == "yes"
+                yield f"{layer.name}:{fid}", polygons, lines, max(width, 0.0), own, words.get("side", "yes") == "yes", of_class
 
     # ---- Features
 
@@ -207,14 +222,40 @@ class Problem:
         return self.given_wholes[key]
 
     def is_barrier(self, key):
-        return key in self.owed
+        return key in self.half
+
+    def gaps_of(self, a, b):
+        """The least gap of two, and the full one, in units of the layer: those of their classes, unless one is a barrier with its own."""
+        own = self.own_gaps.get(a) or self.own_gaps.get(b)
+        if own or not self.gaps:
+            return own or (self.least_gap, self.options.gap)
+        i, j = self.classes[a], self.classes[b]
+        return self.gaps.least[i][j], self.gaps.full[i][j]
+
+    def distances(self, a, b):
+        """Half the width of a barrier and the gaps, in units of the lattice."""
+        if (a, b) not in self.known_distances:
+            half = self.half.get(a, 0) + self.half.get(b, 0)
+            self.known_distances[a, b] = [half + self.lattice(v) for v in self.gaps_of(a, b)]
+        return self.known_distances[a, b]
+
+    def greatest_gap(self):
+        """The greatest full gap of two classes that features have."""
+        there = self.classes_there
+        return max((self.gaps.full[i][j] for i in there for j in there), default=0.0) if self.gaps else self.options.gap
+
+    def least_gap_of(self, body):
+        """The least gap that some member keeps from features of any class that is there."""
+        there = self.classes_there
+        return min(self.gaps.least[self.classes[fid]][j] for fid in body for j in there) if self.gaps else self.least_gap
+
+    def least_owed(self, barrier):
+        """The least distance that any feature has to keep from the barrier, in units of the lattice."""
+        return min((self.required(fid, barrier) for fid in self.place), default=0)
 
     def required(self, a, b):
         """The distance that two have to keep, in units of the lattice: with a least gap, the least one."""
-        for key in (a, b):
-            if self.is_barrier(key):
-                return self.owed[key]
-        return self.lattice(self.least_gap)
+        return self.distances(a, b)[0]
 
     def is_crossed(self, a, b):
         """Does a line or point of one, a barrier, meet the interior of the other one where it stands, and may that stay so?"""
@@ -235,10 +276,7 @@ class Problem:
 
     def full(self, a, b):
         """The distance of which two pay what they lack."""
-        for key in (a, b):
-            if self.is_barrier(key):
-                return self.full_of[key]
-        return self.lattice(self.options.gap)
+        return self.distances(a, b)[1]
 
     def own_limit(self, fid):
         """The limit as a double, or None for no limit. Fixed features have one, too."""
@@ -525,9 +563,14 @@ class Problem:
         fid, limit = told["fid"], told["max_shift"]
         demand(fid in self.things and not self.is_barrier(fid) and fid not in self.skipped and not self.is_hidden(fid), "there is no feature", fid)
         demand(limit == self.own_limit(fid), "the limit of", fid, "is", self.own_limit(fid), "and not", limit)
+        self.demand_class(fid, told)
         demand(told["weight"] == self.weight(fid), "the weight of", fid, "is", self.weight(fid), "and not", told["weight"])
         if "anchor" in told:
             self.demand_anchor_of(fid, told["anchor"])
+
+    def demand_class(self, key, told):
+        own = self.classes[key] if self.gaps else None
+        demand(told.get("class") == own, "the class of", key, "is", own, "and not", told.get("class"))
 
     def demand_anchor_of(self, fid, told):
         demand(tuple(told) == self.anchor(fid), "that is not the anchor of", fid)

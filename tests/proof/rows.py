@@ -30,7 +30,7 @@ class Rows:
         present = [fid for fid in problem.place if fid not in problem.skipped]
         self.bodies = sorted({problem.blocks.block(fid) for fid in present}, key=lambda fids: problem.place[fids[0]])
         self.number = {fids: k for k, fids in enumerate(self.bodies)}
-        gap = problem.options.gap
+        gap = problem.greatest_gap()
         self.scale = math.frexp(gap)[1] if gap else 0  # coordinates are divided by this power of two
         corners = [p for fid in present for polygon in problem.polygons_at_home(fid) for ring in polygon for p in ring]
         self.origin = tuple(Fraction(min((p[c] for p in corners), default=0.0)) for c in (0, 1))
@@ -175,21 +175,26 @@ class Rows:
         sign = 1 if line["a"] in one else -1
         return line, tuple(sign * Fraction(v) for v in line["along"])
 
+    def gaps(self, one, other):
+        """The least gap, and the full one, of two bodies: the least ones of any two members."""
+        pairs = [self.problem.gaps_of(k, l) for k in self.problem.blocks.block(one[0]) for l in self.problem.blocks.block(other[0])]
+        return [min(Fraction(pair[c]) for pair in pairs) for c in (0, 1)]
+
     def rule(self, one, other, asked=None):
         """(n, d): the move of the second relative to the first has n.u >= d, in units of the layer. asked: a listed pair, if any, that is
         to be solved."""
         line, along = self.edge(one, other)
-        apart, gap = Fraction(line["apart"]), Fraction(self.problem.options.gap)
+        apart, (least_gap, gap) = Fraction(line["apart"]), self.gaps(one, other)
         demand(apart > 0, "there is no rule for those that do not stand apart:", *one, *other)
         owed = not any(self.problem.is_listed(k, l) for k in one for l in other if {k, l} != asked)
         least = min(Fraction(0), gap - apart)
-        return along, max(Fraction(self.problem.least_gap) - apart, least) if owed and self.stood_too_near(one, other) else least
+        return along, max(least_gap - apart, least) if owed and self.stood_too_near(one, other) else least
 
     def full(self, one, other):
         """(n, d): with the relative move u the two lack at least d - n.u of the rule of rows with the full gap; None: it asks for nothing."""
         line, along = self.edge(one, other)
         apart = Fraction(line["apart"])
-        return (along, Fraction(self.problem.options.gap) - apart) if apart > 0 and self.stood_too_near(one, other) else None
+        return (along, self.gaps(one, other)[1] - apart) if apart > 0 and self.stood_too_near(one, other) else None
 
     def stood_too_near(self, one, other):
         """Were members of the two, with the shapes of their present levels, nearer than the full gap?"""

@@ -170,7 +170,7 @@ static const sunder_feature *demands_of(const void *of, size_t feature)
 
 static bool begin_lines(gis_part *p, gis_error *error)
 {
-    const gis_proof_things things = {p, p->n, call_feature, call_barrier, demands_of};
+    const gis_proof_things things = {p, p->n, call_feature, call_barrier, demands_of, NULL};
     return gis_proof_lines_begin(&p->lines, &things, p->report, error) &&
            gis_proof_choices_make(&p->lines, &p->choices, error);
 }
