@@ -16,8 +16,9 @@
  * correction. docs/api.md says what is promised in detail, and how structs of options grow.
  *
  * This header includes the five headers that it consists of. Each can be included alone, with those that it needs.
- * Three more headers belong to the interface: sunder_proof.h for proofs, sunder_parts.h for layers that are separated
- * in parts, and sunder_hiding.h for features that may be left out or become smaller.
+ * Four more headers belong to the interface: sunder_proof.h for proofs, sunder_parts.h for layers that are separated
+ * in parts, sunder_hiding.h for features that may be left out or become smaller, and sunder_legible.h for what is too
+ * small to be read.
  *
  * Keys such as [GRS83] resolve in REFERENCES.md. It is installed with the documentation (share/doc/sunder), and so is
  * api.md; paths that begin with src/ are those of the source code. */

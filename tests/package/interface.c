@@ -4,6 +4,7 @@
 #include <sunder.h>
 #include <sunder_parts.h>
 #include <sunder_hiding.h>
+#include <sunder_legible.h>
 #include <sunder_proof.h>
 
 #include <math.h>

@@ -106,7 +106,8 @@ if command -v nm >/dev/null; then
     # Each declaration is marked stable or experimental; in a header that is experimental as a whole all are marked so.
     cat "$prefix"/include/sunder*.h >"$work/headers"
     grep -E '^(SUNDER_API|SUNDER_EXPERIMENTAL) ' "$work/headers" | grep -o 'sunder_[a-z_]*(' | tr -d '(' | sort >"$work/declared"
-    if grep -n '^SUNDER_API' "$prefix/include/sunder_proof.h" "$prefix/include/sunder_parts.h" "$prefix/include/sunder_hiding.h"; then
+    if grep -n '^SUNDER_API' "$prefix/include/sunder_proof.h" "$prefix/include/sunder_parts.h" "$prefix/include/sunder_hiding.h" \
+        "$prefix/include/sunder_legible.h"; then
         echo "stable, in a header that says that all of it is experimental"
         exit 1
     fi
