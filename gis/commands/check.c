@@ -7,6 +7,7 @@
 #include "commands/resolve.h"
 #include "layer/levels.h"
 #include "layer/moves.h"
+#include "legible/legible.h"
 #include "read/source_files.h"
 
 #include <cpl_conv.h>
@@ -24,6 +25,7 @@ typedef struct check_run {
     sunder_report *report;
     sunder_layer_summary summary;
     gis_moves moves; /* the moves since --before */
+    gis_legible legible;
     gis_progress progress;
 } check_run;
 
@@ -64,13 +66,15 @@ static bool write_layer(check_run *run, gis_error *error)
     return gis_conflicts_begin(run->sink, "", gis_id_type(&run->input), gis_source_crs(run->input.source), false,
                                run->request.rules.has_least_gap, &layer, error) &&
            gis_write_report_conflicts(layer, &run->input, run->report, error) &&
-           gis_write_moves(layer, &run->moves, error) && gis_sink_finish(run->sink, &result, error);
+           gis_write_moves(layer, &run->moves, error) && gis_write_legible(layer, &run->input, &run->legible, error) &&
+           gis_sink_finish(run->sink, &result, error);
 }
 
 /* Checks and writes everything; only gis_deliver(), which puts the files in place, is left to do. */
 static bool check_and_write(check_run *run, gis_error *error)
 {
     if (!open_sink(run, error)) return false;
+    if (!gis_legible_check(&run->input, run->options->legible, &run->legible, error)) return false;
     if (!run->options->given[OPT_BEFORE]) gis_layer_forget_demands(&run->input);
     gis_progress_stage(&run->progress, GIS_CHECK_READ, GIS_CHECK_CHECKED);
     if (!gis_layer_run(&run->input, sunder_layer_check, &run->progress, NULL, &run->report, &run->summary, error))
@@ -127,6 +131,11 @@ static bool print_lines(const check_run *run, gis_error *error)
         ok = gis_go_on(error) && gis_moves_row(&run->moves, k, &scratch, values, from, to, error);
         if (ok) print_row(values);
     }
+    for (size_t k = 0; ok && k < run->legible.n; k++) {
+        gis_value values[N_CONFLICT_COLUMNS];
+        ok = gis_go_on(error) && gis_legible_row(&run->input, &run->legible, k, &scratch, values, error);
+        if (ok) print_row(values);
+    }
     gis_conflict_texts_clear(&scratch);
     return ok;
 }
@@ -164,12 +173,25 @@ static void print_counts(const check_run *run)
     putchar('\n');
 }
 
+/* The numbers of features, or parts of them, that are below a least size. */
+static void print_legible(const gis_legible *legible)
+{
+    const char *before = "legible: ";
+    for (sunder_illegible_kind kind = 0; kind < SUNDER_ILLEGIBLE_KINDS; kind++)
+        if (legible->asked[kind]) {
+            printf("%s%s %zu", before, sunder_illegible_kind_string(kind), legible->count[kind]);
+            before = ", ";
+        }
+    putchar('\n');
+}
+
 static bool print_check(const void *checked, gis_error *error)
 {
     const check_run *run = checked;
     if (!print_lines(run, error)) return false;
     if (!run->options->given[OPT_QUIET]) print_counts(run);
     if (run->options->given[OPT_BEFORE] && !run->options->given[OPT_QUIET]) print_moves(&run->moves);
+    if (run->options->legible && !run->options->given[OPT_QUIET]) print_legible(&run->legible);
     return true;
 }
 
@@ -183,6 +205,16 @@ static void json_moves(gis_json *out, const gis_moves *moves)
         if (is_asked_about(moves, kind))
             gis_json_put_size(out, sunder_conflict_kind_string(kind), gis_moves_count(moves, kind));
     gis_json_put_size(out, GIS_MOVES_LOST, moves->n_lost);
+    gis_json_close(out, '}');
+}
+
+/* Adds the key "legible"; it exists only if the sheet asks for it. */
+static void json_legible(gis_json *out, const gis_legible *legible)
+{
+    gis_json_key(out, "legible");
+    gis_json_open(out, '{');
+    for (sunder_illegible_kind kind = 0; kind < SUNDER_ILLEGIBLE_KINDS; kind++)
+        if (legible->asked[kind]) gis_json_put_size(out, sunder_illegible_kind_string(kind), legible->count[kind]);
     gis_json_close(out, '}');
 }
 
@@ -208,6 +240,7 @@ static void json_check(gis_json *out, const check_run *run)
     gis_json_conflict_counts(out, &run->summary.before);
     if (run->request.rules.has_least_gap) json_tight(out, run);
     if (run->options->given[OPT_BEFORE]) json_moves(out, &run->moves);
+    if (run->options->legible) json_legible(out, &run->legible);
     gis_json_sheet(out, run->options);
     gis_json_close(out, '}');
     gis_json_raw(out, "\n");
@@ -235,12 +268,14 @@ int gis_command_check(const gis_options *options)
          gis_layer_input_read(&run.request, &run.input, &error) &&
          gis_destinations_spare(&run.to, run.input.source, &error) && check_and_write(&run, &error) &&
          deliver_check(&run, taken, &error);
-    int status = ok ? gis_complete_status(options, gis_any_conflict(&run.summary.before) || gis_moves_rows(&run.moves))
+    int status = ok ? gis_complete_status(options, gis_any_conflict(&run.summary.before) ||
+                                                       gis_moves_rows(&run.moves) || run.legible.n)
                     : gis_say_failure(&error);
     gis_sink_free(run.sink);
     free(run.layer);
     sunder_report_free(run.report);
     gis_moves_clear(&run.moves);
+    gis_legible_clear(&run.legible);
     gis_layer_input_clear(&run.input);
     gis_layer_input_request_clear(&run.request);
     return status;

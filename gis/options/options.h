@@ -158,6 +158,7 @@ struct gis_options {
     size_t n_owned;
     /* Of a sheet (--spec), borrowed; NULL: none. */
     const struct gis_gap_classes *gap_classes;
+    const struct gis_legible_rules *legible; /* what check asks of each feature */
     const char *sheet;          /* it, with the other options in it, as JSON */
     const char *original_layer; /* the layer that moves, in its source: check --before looks for it */
 };

@@ -4,12 +4,14 @@
 #define GIS_SHEET_H
 
 #include "layer/gap_rules.h"
+#include "legible/legible.h"
 #include "options/options.h"
 
 typedef struct gis_sheet {
     struct json_object *root, *effective; /* as in the file; with the options of the command line in it */
     const char *path;                     /* of the file, as given */
     char *directory;                      /* relative paths in the file are relative to it */
+    gis_legible_rules legible;            /* of the layer that moves */
     gis_gap_classes gaps;                 /* name, rule and of_barrier are owned here */
     const char **name;                    /* [gaps.classes] borrowed from `root`; name[0] is NULL */
     gis_gap_rule *rule;                   /* [gaps.rules] */

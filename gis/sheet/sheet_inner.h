@@ -54,6 +54,14 @@ bool gis_sheet_add_barriers(gis_sheet *sheet, struct json_object *layer, const c
 /* The path of a dataset in the sheet, freed with CPLFree(). */
 char *gis_sheet_dataset(const gis_sheet *sheet, const char *source);
 
+/* ---- sheet_legible.c --------------------------------------------------------------------------------------------- */
+
+/* Sets the rules of "legible" in an object that are not given yet. */
+bool gis_sheet_read_legible(const gis_sheet *sheet, struct json_object *of, const char *place, gis_legible_rules *rules,
+                            gis_error *error);
+/* What each of its keys means. */
+extern const char *const gis_sheet_legible_about[SUNDER_ILLEGIBLE_KINDS];
+
 /* ---- sheet_print.c ----------------------------------------------------------------------------------------------- */
 
 /* Puts the options of the command line into a copy of the sheet. */

@@ -112,6 +112,15 @@ static void open_object(gis_json *out, const char *key)
     put_type(out, "comment", "string", "ignored");
 }
 
+static void put_legible(gis_json *out)
+{
+    open_object(out, "legible");
+    for (int kind = 0; kind < SUNDER_ILLEGIBLE_KINDS; kind++)
+        put_type(out, gis_legible_key((sunder_illegible_kind)kind), "string|number", gis_sheet_legible_about[kind]);
+    gis_json_close(out, '}');
+    gis_json_close(out, '}');
+}
+
 static void put_layer(gis_json *out)
 {
     open_object(out, NULL);
@@ -126,6 +135,7 @@ static void put_layer(gis_json *out)
     put_type(out, "side", "boolean", "barriers: features stay on their side");
     put_type(out, "as", "string", "barriers: area, or boundary: the rings of polygons as lines");
     put_rules(out);
+    put_legible(out);
     gis_json_close(out, '}');
     put_required(out, (const char *const[]){"source", "role", NULL});
     gis_json_close(out, '}');
@@ -169,6 +179,7 @@ bool gis_sheet_print_schema(gis_error *error)
     put_rules(&out);
     gis_json_close(&out, '}');
     gis_json_close(&out, '}');
+    put_legible(&out);
     open_array(&out, "layers", "one layer moves, the others do not");
     put_layer(&out);
     gis_json_close(&out, '}');

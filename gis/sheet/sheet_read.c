@@ -62,8 +62,8 @@ static bool parse(gis_sheet *sheet, gis_error *error)
 
 /* ---- Layers ------------------------------------------------------------------------------------------------------ */
 
-const char *const gis_sheet_moving_keys[] = {"name", "source", "layer", "role", "class", "crs", NULL};
-static const char *const sheet_keys[] = {"title", "scale", "defaults", "layers", "gaps", NULL};
+const char *const gis_sheet_moving_keys[] = {"name", "source", "layer", "role", "class", "crs", "legible", NULL};
+static const char *const sheet_keys[] = {"title", "scale", "defaults", "layers", "gaps", "legible", NULL};
 
 static bool set_text(const gis_sheet *sheet, struct json_object *layer, const char *place, const char *key,
                      gis_option_id id, gis_options *options, gis_error *error)
@@ -108,6 +108,7 @@ static bool apply_moving(gis_sheet *sheet, struct json_object *layer, const char
            set_text(sheet, layer, place, "crs", OPT_INPUT_CRS, options, error) &&
            (options->command->bit == GIS_CHECK ||
             set_text(sheet, layer, place, "name", OPT_OUTPUT_LAYER, options, error)) &&
+           gis_sheet_read_legible(sheet, layer, place, &sheet->legible, error) &&
            gis_rules_set(sheet, layer, place, options, error);
 }
 
@@ -159,6 +160,7 @@ static bool apply_sheet(gis_sheet *sheet, gis_options *options, gis_error *error
         return gis_sheet_fail(sheet, error, "defaults", "must be an object of rules");
     const char *const none[] = {NULL};
     return gis_sheet_read_gaps(sheet, options, error) && apply_layers(sheet, options, error) &&
+           gis_sheet_read_legible(sheet, sheet->root, "", &sheet->legible, error) &&
            gis_sheet_check_classes(sheet, error) &&
            (!defaults || gis_sheet_check_keys(sheet, defaults, "defaults", none, true, error)) &&
            gis_rules_set(sheet, defaults, "defaults", options, error);
@@ -178,6 +180,7 @@ bool gis_sheet_apply(gis_options *options, gis_sheet *out, gis_error *error)
     out->gaps.rule = out->rule;
     out->gaps.of_barrier = out->of_barrier;
     if (out->gaps.rules) options->gap_classes = &out->gaps;
+    if (gis_legible_any_rule(&out->legible)) options->legible = &out->legible;
     options->given[OPT_SPEC] = false; /* what the sheet says is given now, and a plan stores that */
     return options->given[OPT_PRINT_SPEC] || gis_options_finish(options, error);
 }

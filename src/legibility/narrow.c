@@ -129,10 +129,12 @@ sunder_status sunder_i_part_width(const sunder_i_part_read *part, double limit, 
     sunder_status status = *found ? SUNDER_OK : fits_exactly(part, centre, limit / 2, &fits, err);
     *found = !fits;
     if (status || fits) return status;
-    out->has = sunder_i_max(0, 2 * (radius - slack));
+    /* of a rectangle along the axes, and others, the number found is exact */
+    if (radius > 0) status = fits_exactly(part, centre, radius, &fits, err);
+    out->has = fits ? 2 * radius : sunder_i_max(0, 2 * (radius - slack));
     for (int c = 0; c < 2; c++) {
         out->from[c] = contact[c];
         out->to[c] = 2 * centre[c] - contact[c];
     }
-    return refine(part, centre, sunder_i_min(side, limit), &out->has, err);
+    return status ? status : refine(part, centre, sunder_i_min(side, limit), &out->has, err);
 }
