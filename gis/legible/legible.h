@@ -5,8 +5,8 @@
 #include "layer/output.h"
 #include "sunder_legible.h"
 
-/* The least sizes that a sheet gives, by kind of finding; borrowed texts. What is not given is not asked. The least area
- * is `area` times the square of the length for it, which is 1 in the unit that was given. */
+/* The least sizes that a sheet gives, by kind of finding; borrowed texts. What is not given is not asked. The least
+ * area is `area` times the square of the length for it, which is 1 in the unit that was given. */
 typedef struct gis_legible_rules {
     gis_optional_length least[SUNDER_ILLEGIBLE_KINDS];
     double area;
@@ -14,8 +14,8 @@ typedef struct gis_legible_rules {
 
 /* The key of a kind in a sheet: "width", "area", "neck", "inner_gap", "edge". */
 const char *gis_legible_key(sunder_illegible_kind kind);
-/* Sets the rule of a kind to a text as in a sheet: a length, or for areas one with "2" after its unit, such as "0.3mm2",
- * or a number of square units of the layer. On failure *why is a short reason. */
+/* Sets the rule of a kind to a text as in a sheet: a length, or for areas one with "2" after its unit, such as
+ * "0.3mm2", or a number of square units of the layer. On failure *why is a short reason. */
 bool gis_legible_rule_parse(const char *text, sunder_illegible_kind kind, gis_legible_rules *rules, const char **why);
 bool gis_legible_any_rule(const gis_legible_rules *rules);
 

@@ -31,9 +31,9 @@ const gis_need *gis_option_need(gis_option_id option)
 
 bool gis_option_is_of_moves(gis_option_id option)
 {
-    static const gis_option_id of_moves[] = {OPT_MAX_SHIFT, OPT_MAX_SHIFT_FIELD, OPT_FIXED_WHERE,
-                                             OPT_ALLOW_JUMPS, OPT_ROWS, OPT_TRIM, OPT_INSET, OPT_SYMBOL_SIZE,
-                                             OPT_ENLARGE};
+    static const gis_option_id of_moves[] = {
+        OPT_MAX_SHIFT, OPT_MAX_SHIFT_FIELD, OPT_FIXED_WHERE, OPT_ALLOW_JUMPS, OPT_ROWS,     OPT_TRIM,
+        OPT_INSET,     OPT_SYMBOL_SIZE,     OPT_ENLARGE,     OPT_TRIM_KEEP,   OPT_MIN_SIZE, OPT_RIGID_WHERE};
     for (size_t i = 0; i < sizeof of_moves / sizeof *of_moves; i++)
         if (of_moves[i] == option) return true;
     return false;

@@ -50,6 +50,9 @@ cmp -s by_sheet.gpkg merged.gpkg || fail "the plan of a sheet has other bytes"
 grep -r -q one.json plan.dir && fail "a plan needs the sheet again"
 expect 0 separate --spec one.json --print-spec --gap 1 --no-blocks --scale 5000
 same "$(jq -c '[.scale, .layers[0].gap, .layers[0].no_blocks, .layers[1].width]' out)" '[5000,"1",true,4]' 'the effective sheet:'
+# Rules for smaller and larger shapes are rules for moves, which check without --before passes over.
+sed 's|//.*||' one.json | jq '.defaults += {enlarge: true, min_size: "0.2mm", rigid_where: "fid = 1", gap: 0}' >larger.json
+expect 0 check --spec larger.json --allow-conflicts -q
 "$SUNDER" --spec-schema >schema.json || fail "--spec-schema"
 same "$(jq -c '[.required, .properties.gaps.items.required, .properties.layers.items.properties.max_shift.type[0]]' schema.json)" \
     '[["layers"],["between"],"string"]' 'the schema:'
