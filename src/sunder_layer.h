@@ -171,6 +171,9 @@ typedef struct sunder_gaps {
     const double *full_gap;  /* [classes * classes] finite, not less than the gap; NULL: as the gap */
     const uint32_t *feature; /* [features] the class of each, less than `classes` */
     const uint32_t *barrier; /* [barriers] likewise */
+    /* [classes] Of a part of a layer: the classes that features of the whole layer have. NULL: those of these
+     * features. */
+    const bool *there;
 } sunder_gaps;
 
 /* Gives the layer gaps by classes. A pair keeps the gap of its two classes, or options.gap if that is less; a barrier

@@ -49,6 +49,20 @@ static char *absolute_value(const gis_option *option, const char *value)
     }
 }
 
+static bool store_gaps(const gis_options *options, gis_plan *plan, gis_error *error)
+{
+    const char *const *barrier = options->list[OPT_BARRIER];
+    size_t barriers = 0;
+    gis_json json = {0};
+    if (!options->gap_classes) return true;
+    while (barrier && barrier[barriers]) barriers++;
+    gis_sheet_put_gaps(&json, options->gap_classes, barriers);
+    const char *text = gis_json_text(&json);
+    if (text) plan->gaps = CPLStrdup(text);
+    gis_json_clear(&json);
+    return plan->gaps || gis_no_memory(error);
+}
+
 bool gis_planned_arguments(const gis_options *options, gis_plan *plan, gis_error *error)
 {
     gis_call call = {0};
@@ -62,7 +76,7 @@ bool gis_planned_arguments(const gis_options *options, gis_plan *plan, gis_error
     char *input = gis_plan_absolute_source(options->operand[0]);
     done = done && gis_plan_add_argument(plan, "--", NULL, error) && gis_plan_add_argument(plan, input, NULL, error);
     CPLFree(input);
-    return done;
+    return done && store_gaps(options, plan, error);
 }
 
 /* ---- Parsing the stored arguments -------------------------------------------------------------------------------- */
@@ -120,7 +134,8 @@ bool gis_planned_parse(gis_planned *planned, const gis_options *now, const char 
         !gis_options_parse(find_separate(), (int)planned->words, planned->word, &planned->options, error))
         return false;
     gis_configure(&planned->options);
-    return true;
+    const char *gaps = planned->plan.gaps;
+    return !gaps || !*gaps || gis_sheet_take_gaps(gaps, &planned->options, &planned->sheet, error);
 }
 
 bool gis_planned_open(const char *directory, const gis_options *now, const char *output, gis_planned *planned,
@@ -133,6 +148,7 @@ bool gis_planned_open(const char *directory, const gis_options *now, const char 
 void gis_planned_clear(gis_planned *planned)
 {
     gis_options_clear(&planned->options);
+    gis_sheet_clear(&planned->sheet);
     gis_plan_clear(&planned->plan);
     for (size_t k = 0; k < planned->words; k++) free(planned->word[k]);
     free(planned->word);

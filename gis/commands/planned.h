@@ -4,17 +4,19 @@
 
 #include "options/options.h"
 #include "shards/plan/plan.h"
+#include "sheet/sheet.h"
 
 /* A zeroed struct is empty. */
 typedef struct gis_planned {
     gis_plan plan;
     gis_options options; /* the options of separate, parsed from `word` */
+    gis_sheet sheet;     /* with the gaps by classes of the plan, which `options` borrows */
     char **word;         /* [words] the arguments that `options` was parsed from; owned */
     size_t words;
 } gis_planned;
 
 /* Stores the options of the command `plan` as arguments in the plan: each option in its long spelling, with absolute
- * paths. */
+ * paths; and the gaps by classes. */
 bool gis_planned_arguments(const gis_options *options, gis_plan *plan, gis_error *error);
 /* Parses the arguments of the plan as a call of separate that writes `output`. Options of the group GIS_GROUP_RUNNING
  * in `now` take precedence over those of the plan. */

@@ -134,15 +134,6 @@ static bool check_preferred(const gis_options *options, gis_error *error)
     return true;
 }
 
-/* Refuses what does not know gaps by classes. */
-static bool check_classes(const gis_options *options, gis_error *error)
-{
-    if (options->gap_classes && options->given[OPT_MAX_MEMORY])
-        return gis_fail_usage(error, "--spec: gaps that depend on classes: not with --max-memory");
-    return !options->gap_classes || options->command->bit != GIS_PLAN ||
-           gis_fail_usage(error, "--spec: gaps that depend on classes: not in a plan");
-}
-
 static bool resolve_rules(const gis_options *options, gis_layer_rules *out, gis_error *error)
 {
     unsigned weighting;
@@ -169,8 +160,8 @@ static bool resolve_rules(const gis_options *options, gis_layer_rules *out, gis_
     out->core.threads = gis_resolve_threads(options);
     if (!gis_resolve_choice(options, OPT_WEIGHT, weighting_word, &weighting, error)) return false;
     out->weighting = (gis_weighting)weighting;
-    return check_preferred(options, error) && check_classes(options, error) && resolve_rows(options, out, error) &&
-           resolve_room(options, out, error) && resolve_stiffness(options, out->core.row_stiffness, error) &&
+    return check_preferred(options, error) && resolve_rows(options, out, error) && resolve_room(options, out, error) &&
+           resolve_stiffness(options, out->core.row_stiffness, error) &&
            resolve_ease(options, &out->core.ease, error) && resolve_contained(options, &out->core.contained, error);
 }
 

@@ -73,6 +73,8 @@ bool gis_class_gaps_tables(gis_layer_input *input, gis_error *error)
     gis_class_tables *out = &input->class_tables;
     if (!classes) return true;
     const size_t n = classes->classes;
+    if (n > GIS_MOST_CLASSES)
+        return gis_fail_usage(error, "--spec: gaps: %zu classes; at most %d", n - 1, GIS_MOST_CLASSES - 1);
     out->gap = malloc(n * n * sizeof *out->gap);
     out->full = malloc(n * n * sizeof *out->full);
     if (!out->gap || !out->full) return gis_no_memory(error);
@@ -117,6 +119,13 @@ uint32_t gis_class_gaps_of_barrier(const gis_gap_classes *classes, size_t reques
     return classes->of_barrier ? classes->of_barrier[request] : 0;
 }
 
+sunder_gaps gis_class_gaps_core(const gis_gap_classes *classes, const gis_class_tables *tables)
+{
+    return (sunder_gaps){.classes = classes ? classes->classes : 0, .gap = tables->gap, .full_gap = tables->full};
+}
+
+double gis_class_gaps_most(const gis_layer_input *input) { return fmax(input->gap, input->class_tables.most_full); }
+
 bool gis_class_gaps_set(const gis_layer_input *input, const size_t *number, size_t n, sunder_layer *layer,
                         gis_error *error)
 {
@@ -129,11 +138,9 @@ bool gis_class_gaps_set(const gis_layer_input *input, const size_t *number, size
     for (size_t k = 0; ok && k < n; k++) of[k] = input->gap_class[number ? number[k] : k];
     for (size_t k = 0; ok && k < barriers->n; k++)
         of[n + k] = gis_class_gaps_of_barrier(classes, barriers->feature[k].request);
-    const sunder_gaps gaps = {.classes = classes->classes,
-                              .gap = input->class_tables.gap,
-                              .full_gap = input->class_tables.full,
-                              .feature = of,
-                              .barrier = ok ? of + n : NULL};
+    sunder_gaps gaps = gis_class_gaps_core(classes, &input->class_tables);
+    gaps.feature = of;
+    gaps.barrier = ok ? of + n : NULL;
     if (ok && sunder_layer_set_gaps(layer, &gaps, &why) != SUNDER_OK) ok = gis_core_failed(error, "--spec: gaps", &why);
     free(of);
     return ok;

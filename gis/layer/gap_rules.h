@@ -4,6 +4,9 @@
 
 #include "layer/layer_input.h"
 
+/* The greatest number of classes, with class 0. */
+enum { GIS_MOST_CLASSES = 1024 };
+
 /* Of a rule: all classes. */
 #define GIS_EVERY_CLASS UINT32_MAX
 
@@ -30,6 +33,10 @@ bool gis_class_gaps_field(gis_layer_input *input, gis_error *error);
 bool gis_class_gaps_tables(gis_layer_input *input, gis_error *error);
 /* Sets input->gap_class to the class of each feature that was read. */
 bool gis_class_gaps_read(gis_layer_input *input, gis_error *error);
+/* The tables for the core, borrowed; classes 0 if `classes` is NULL. */
+sunder_gaps gis_class_gaps_core(const gis_gap_classes *classes, const gis_class_tables *tables);
+/* The greatest gap of any pair, in units of the layer. */
+double gis_class_gaps_most(const gis_layer_input *input);
 /* The class of a barrier of this request. */
 uint32_t gis_class_gaps_of_barrier(const gis_gap_classes *classes, size_t request);
 /* Gives a layer of the core, with its barriers, the gaps. number: the index in `input` of each of its n features; NULL:

@@ -55,6 +55,7 @@ bool gis_layer_checksums_add(gis_layer_checksums *sums, const gis_layer_input *i
                          input->weight_field,
                          input->rows_field,
                          input->hierarchy_field,
+                         input->class_field,
                          field_of(input, request->symbol_field),
                          field_of(input, request->symbol_size_field)};
     enum { FIELDS = sizeof field / sizeof *field, FIRST_FIELD = 4 };

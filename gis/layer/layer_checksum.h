@@ -7,9 +7,9 @@
 
 /* Checksums of FIDs and geometries (gis_source_checksum()), of the results of --ignore-where, --fixed-where and
  * --rigid-where, and of the values of --id-field, --block-field, --max-shift-field, --weight-field, --rows,
- * --hierarchy-field, --symbol-field and --symbol-size-field. Each is continued from
- * feature to feature, so the size of batches does not matter. A zeroed struct covers no features. */
-enum { GIS_LAYER_CHECKSUMS = 12 };
+ * --hierarchy-field, --symbol-field, --symbol-size-field and of the classes for gaps. Each is continued from feature to
+ * feature, so the size of batches does not matter. A zeroed struct covers no features. */
+enum { GIS_LAYER_CHECKSUMS = 13 };
 typedef struct gis_layer_checksums {
     uint64_t of[GIS_LAYER_CHECKSUMS];
 } gis_layer_checksums;

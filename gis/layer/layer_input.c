@@ -152,7 +152,7 @@ static const double gaps_of_rows = 4;
 double gis_layer_barrier_reach(const gis_layer_input *input, double longest_limit)
 {
     return fmax(limits_known * longest_limit,
-                input->request->rules.core.rows ? gaps_of_rows * fmax(input->gap, input->class_tables.most_full) : 0);
+                input->request->rules.core.rows ? gaps_of_rows * gis_class_gaps_most(input) : 0);
 }
 
 /* The longest move that any feature may make. */
@@ -227,7 +227,7 @@ static bool read_barriers(gis_layer_input *input, gis_error *error)
         .units = &input->units,
         .targets = targets,
         .reach = input->barrier_reach,
-        .gap = fmax(input->gap, input->class_tables.most_full),
+        .gap = gis_class_gaps_most(input),
         .least_gap = request->rules.least_gap.text ? input->least_gap : -1,
         .invalid = request->invalid,
         .output = request->output,

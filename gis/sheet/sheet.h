@@ -3,6 +3,7 @@
 #ifndef GIS_SHEET_H
 #define GIS_SHEET_H
 
+#include "base/json.h"
 #include "layer/gap_rules.h"
 #include "legible/legible.h"
 #include "options/options.h"
@@ -26,6 +27,11 @@ typedef struct gis_sheet {
  * failure, too, and after the options, which borrow from it. */
 bool gis_sheet_apply(gis_options *options, gis_sheet *out, gis_error *error);
 void gis_sheet_clear(gis_sheet *sheet);
+
+/* Puts gaps by classes as an object, for a plan to store; barriers: the number of values of --barrier. */
+void gis_sheet_put_gaps(gis_json *out, const gis_gap_classes *gaps, size_t barriers);
+/* Sets the gaps by classes of options from such an object. The caller clears *out as after gis_sheet_apply(). */
+bool gis_sheet_take_gaps(const char *text, gis_options *options, gis_sheet *out, gis_error *error);
 
 /* Prints the sheet with the options of the command line in it to stdout, as JSON. */
 void gis_sheet_print(const gis_sheet *sheet);

@@ -46,6 +46,11 @@ bool gis_sheet_read_class(const gis_sheet *sheet, struct json_object *layer, con
 /* Fails if a rule has a class that no layer has, unless a layer has its classes in a field. */
 bool gis_sheet_check_classes(const gis_sheet *sheet, gis_error *error);
 
+/* ---- sheet_read.c ------------------------------------------------------------------------------------------------ */
+
+/* Makes the options borrow the gaps by classes, once they are read. */
+void gis_sheet_lend_gaps(gis_sheet *sheet, gis_options *options);
+
 /* ---- sheet_barriers.c -------------------------------------------------------------------------------------------- */
 
 /* Adds the values of --barrier for a layer that does not move. */

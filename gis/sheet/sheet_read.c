@@ -166,6 +166,14 @@ static bool apply_sheet(gis_sheet *sheet, gis_options *options, gis_error *error
            gis_rules_set(sheet, defaults, "defaults", options, error);
 }
 
+void gis_sheet_lend_gaps(gis_sheet *sheet, gis_options *options)
+{
+    sheet->gaps.name = sheet->name;
+    sheet->gaps.rule = sheet->rule;
+    sheet->gaps.of_barrier = sheet->of_barrier;
+    if (sheet->gaps.rules) options->gap_classes = &sheet->gaps;
+}
+
 bool gis_sheet_apply(gis_options *options, gis_sheet *out, gis_error *error)
 {
     *out = (gis_sheet){.path = options->text[OPT_SPEC]};
@@ -176,10 +184,7 @@ bool gis_sheet_apply(gis_options *options, gis_sheet *out, gis_error *error)
         return false;
     options->sheet =
         json_object_to_json_string_ext(out->effective, JSON_C_TO_STRING_PLAIN | JSON_C_TO_STRING_NOSLASHESCAPE);
-    out->gaps.name = out->name;
-    out->gaps.rule = out->rule;
-    out->gaps.of_barrier = out->of_barrier;
-    if (out->gaps.rules) options->gap_classes = &out->gaps;
+    gis_sheet_lend_gaps(out, options);
     if (gis_legible_any_rule(&out->legible)) options->legible = &out->legible;
     options->given[OPT_SPEC] = false; /* what the sheet says is given now, and a plan stores that */
     return options->given[OPT_PRINT_SPEC] || gis_options_finish(options, error);

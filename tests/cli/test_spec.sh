@@ -23,6 +23,26 @@ for seed in 1 2 3 4; do
 done
 [ "$any" -gt 0 ] || fail "no pair remained too near, so that the list was not asked"
 
+# ---- In parts: the same bytes, with proofs
+for how in whole parts; do
+    more=()
+    [ $how = parts ] && more=(--max-memory 110M)
+    expect 0 separate --spec sheet.json $how.gpkg -q --allow-conflicts --proof $how.jsonl "${more[@]}"
+done
+expect 0 plan --spec sheet.json plan.dir --shards 2 -q --allow-conflicts --proof shards.jsonl
+for k in 1 2; do expect 0 separate --shard $k plan.dir -q; done
+mv sheet.json kept.json # a plan does not need it again
+expect 0 merge plan.dir shards.gpkg -q
+mv kept.json sheet.json
+for how in parts shards; do
+    cmp -s whole.gpkg $how.gpkg || fail "$how: other bytes"
+    cmp -s whole.jsonl $how.jsonl || fail "$how: another proof"
+done
+same "$(jq -c '.gaps.class' plan.dir/plan.json)" '{"field":"kind"}' 'the gaps of the plan:'
+jq '.gaps[-1].gap += 0.25' < <(sed 1d sheet.json) >other.json
+expect 1 plan --spec other.json plan.dir --shards 2 -q --allow-conflicts --proof shards.jsonl
+grep -q 'another command line' err || fail "a plan of other gaps: $(cat err)"
+
 # ---- One gap: the same bytes as the options
 cat >one.json <<'JSON'
 {"scale": "1:10000", // metres of the ground: 0.2 mm are 2 m
@@ -35,7 +55,7 @@ expect 0 separate --spec one.json by_sheet.gpkg -q --allow-conflicts
 expect 0 separate town.gpkg by_options.gpkg -q --allow-conflicts --input-layer houses --output-layer houses "${options[@]}" \
     --barrier town.gpkg,layer=roads,width=4
 cmp -s by_sheet.gpkg by_options.gpkg || fail "a sheet with one gap has other bytes than the options"
-# From elsewhere paths are relative to the sheet; options of the command line override it; a plan has its options.
+# From elsewhere paths are relative to the sheet; options of the command line override it.
 mkdir -p there
 (cd there && "$SUNDER" separate --spec ../one.json ../by_path.gpkg -q --allow-conflicts) || fail "another directory"
 cmp -s by_sheet.gpkg by_path.gpkg || fail "the sheet from another directory has other bytes"
@@ -43,11 +63,6 @@ expect 0 separate --spec one.json other.gpkg -q --allow-conflicts --gap 1 --max-
 expect 0 separate town.gpkg other_options.gpkg -q --allow-conflicts --input-layer houses --output-layer houses \
     --scale 10000 --gap 1 --max-shift 3 --no-blocks --row-stiffness 4,0.5 --barrier town.gpkg,layer=roads,width=4
 cmp -s other.gpkg other_options.gpkg || fail "options do not override the sheet"
-expect 0 plan --spec one.json plan.dir --shards 2 -q --allow-conflicts
-for k in 1 2; do expect 0 separate --shard $k plan.dir -q; done
-expect 0 merge plan.dir merged.gpkg -q
-cmp -s by_sheet.gpkg merged.gpkg || fail "the plan of a sheet has other bytes"
-grep -r -q one.json plan.dir && fail "a plan needs the sheet again"
 expect 0 separate --spec one.json --print-spec --gap 1 --no-blocks --scale 5000
 same "$(jq -c '[.scale, .layers[0].gap, .layers[0].no_blocks, .layers[1].width]' out)" '[5000,"1",true,4]' 'the effective sheet:'
 # Rules for smaller and larger shapes are rules for moves, which check without --before passes over.
@@ -99,6 +114,4 @@ cmp -s one.json kept.json || fail "the statistics replaced the sheet"
 expect 1 separate --spec none.json no.gpkg
 expect 2 separate --spec one.json town.gpkg no.gpkg
 grep -q 'leave out INPUT' err || fail "$(cat err)"
-expect 2 separate --spec sheet.json no.gpkg --max-memory 1G
-grep -q 'depend on classes' err || fail "$(cat err)"
 finish

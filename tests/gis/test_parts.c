@@ -3,7 +3,7 @@
  *
  * Layers are towns of slanted boxes, some of them crowded, some in rows that touch, some fixed or limited, some in
  * blocks whose members are far from each other. Some have barriers: roads through the whole town or of a few metres,
- * meadows, many at one place, some far away. */
+ * meadows, many at one place, some far away. In half of the towns gaps depend on classes. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -21,7 +21,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { MOST = 4000, BARRIERS = 1500 };
+enum { MOST = 4000, BARRIERS = 1500, CLASSES = 4 };
 
 typedef struct town {
     sunder_feature feature[MOST];
@@ -33,6 +33,10 @@ typedef struct town {
     gis_rung_lengths lengths;
     sunder_hiding_cost cost[MOST];
     bool rigid[MOST];
+    sunder_gaps gaps; /* classes 0: there is one gap */
+    double class_gap[CLASSES * CLASSES];
+    uint32_t class_of[MOST], class_of_barrier[BARRIERS];
+    bool class_there[CLASSES];
 } town;
 
 static const sunder_shape *box_at(rng *r, double x, double y, double w, double h, bool slanted)
@@ -177,6 +181,31 @@ static void lay_barriers(town *t, rng *r, bool any)
     t->how.effort = 0;
 }
 
+/* Draws the class of a feature: in the north they all have one, so that parts lack the others. */
+static uint32_t draw_class(rng *r, const sunder_shape *shape)
+{
+    double box[4];
+    sunder_shape_box(shape, box);
+    return box[1] > 9050 ? CLASSES - 2 : (uint32_t)rng_int(r, 0, CLASSES - 3);
+}
+
+/* Draws gaps by classes: none between some two classes, and the last class has barriers alone. */
+static void draw_gaps(town *t, rng *r, bool any)
+{
+    const double most = 1 + rng_unit(r);
+    t->gaps = (sunder_gaps){0};
+    if (!any) return;
+    memset(t->class_there, 0, sizeof t->class_there);
+    for (size_t k = 0; k < t->n; k++) t->class_there[t->class_of[k] = draw_class(r, t->feature[k].shape)] = true;
+    for (size_t k = 0; k < t->barriers; k++) t->class_of_barrier[k] = (uint32_t)rng_int(r, 0, CLASSES - 1);
+    for (size_t i = 0; i < CLASSES; i++)
+        for (size_t j = 0; j <= i; j++)
+            t->class_gap[i * CLASSES + j] = t->class_gap[j * CLASSES + i] = rng_once_in(r, 4) ? 0 : most * rng_unit(r);
+    t->how.gap = 0;
+    for (size_t k = 0; k < CLASSES * CLASSES; k++) t->how.gap = fmax(t->how.gap, t->class_gap[k]);
+    t->gaps = (sunder_gaps){CLASSES, t->class_gap, t->class_gap, t->class_of, t->class_of_barrier, t->class_there};
+}
+
 /* Draws what it costs to hide features, some of them never, and whether they may become smaller, some of them
  * never. */
 static void draw_costs(town *t, rng *r, bool hides, bool smaller)
@@ -219,9 +248,10 @@ static gis_spooled_barriers barriers_of(const town *t)
     gis_spooled_barriers spool = {0};
     gis_error error;
     if (t->barriers == 0) return spool;
-    assert_true(gis_barriers_create(scratch_directory(), t->how.gap, t->how.gap, &writer, &error));
+    assert_true(gis_barriers_create(scratch_directory(), t->how.gap, t->how.gap, &t->gaps, &writer, &error));
     for (size_t k = 0; k < t->barriers; k++) {
-        const gis_spooled_barrier barrier = {2 * k, (int64_t)k, "roads", t->barrier[k]};
+        const gis_spooled_barrier barrier = {2 * k, (int64_t)k, "roads", t->barrier[k],
+                                             t->gaps.classes ? t->class_of_barrier[k] : 0};
         assert_true(gis_barriers_add(writer, &barrier, &error));
     }
     if (!gis_barriers_finish(writer, &error)) fail_msg("%s", error.message);
@@ -240,6 +270,7 @@ static gis_spool *spool_of(const town *t, unsigned shards)
         gis_spool_feature f = {.index = k, .fid = (int64_t)k + 1, .demands = t->feature[k], .start = {NAN, NAN}};
         if (t->rules.hide || t->rules.trim) f.hiding = t->cost[k];
         f.rigid = t->rigid[k];
+        f.gap_class = t->gaps.classes ? t->class_of[k] : 0;
         assert_true(gis_spool_add(writer, &f, &error));
     }
     assert_true(gis_spool_finish(writer, shards, NULL, NULL, &error));
@@ -478,6 +509,7 @@ static unsigned compare(const town *t, const sunder_report *whole, const gis_lev
     const unsigned files = apart ? shards : 1;
     if (!gis_layout_make(spool, t->how.gap, true, &layout, &error)) fail_msg("%s", error.message);
     layout.how = t->how;
+    layout.gaps = t->gaps;
     if (halo >= 0) layout.halo = halo;
     layout.barriers = barriers_of(t);
     layout.features = t->n;
@@ -515,6 +547,7 @@ static void separate_towns(size_t n, bool barriers, bool rows)
         else
             lay_out(&t, &r, n);
         lay_barriers(&t, &r, barriers);
+        draw_gaps(&t, &r, number % 2 == 1);
         draw_costs(&t, &r, barriers && number % 2 == 0, barriers && number % 4 == 2);
         sunder_layer *layer;
         sunder_report *whole;
@@ -522,6 +555,7 @@ static void separate_towns(size_t n, bool barriers, bool rows)
         sunder_layer_summary s;
         assert_int_equal(sunder_layer_new(t.feature, t.n, &layer, &why), SUNDER_OK);
         assert_int_equal(sunder_layer_set_barriers(layer, t.barrier, t.barriers, &why), SUNDER_OK);
+        if (t.gaps.classes) assert_int_equal(sunder_layer_set_gaps(layer, &t.gaps, &why), SUNDER_OK);
         gis_levels levels = levels_of(&t, layer);
         if (t.rules.hide) assert_int_equal(sunder_layer_set_hiding(layer, t.cost, &why), SUNDER_OK);
         assert_int_equal(sunder_layer_separate(layer, &t.how, &whole, &why), SUNDER_OK);

@@ -168,9 +168,16 @@ static const sunder_feature *demands_of(const void *of, size_t feature)
     return &((const gis_part *)of)->item[feature].feature.demands;
 }
 
+static uint32_t class_of(const void *of, size_t thing)
+{
+    const gis_part *p = of;
+    return thing < p->n ? p->item[thing].feature.gap_class : p->barriers.item[thing - p->n].gap_class;
+}
+
 static bool begin_lines(gis_part *p, gis_error *error)
 {
-    const gis_proof_things things = {p, p->n, call_feature, call_barrier, demands_of, NULL};
+    const gis_proof_things things = {
+        p, p->n, call_feature, call_barrier, demands_of, p->layout->gaps.classes ? class_of : NULL};
     return gis_proof_lines_begin(&p->lines, &things, p->report, error) &&
            gis_proof_choices_make(&p->lines, &p->choices, error);
 }
@@ -199,6 +206,22 @@ static bool set_rows(gis_part *p, gis_error *error)
     const bool done = sunder_layer_set_rows(p->layer, row, &why) == SUNDER_OK;
     free(row);
     return done || gis_core_failed(error, "a part of the layer", &why);
+}
+
+/* Sets the gaps by classes, if there are any; the barriers are set. */
+static bool set_gaps(gis_part *p, gis_error *error)
+{
+    sunder_gaps gaps = p->layout->gaps;
+    sunder_error why;
+    if (gaps.classes == 0) return true;
+    uint32_t *of = malloc((p->n + p->barriers.n + 1) * sizeof *of);
+    if (!of) return gis_no_memory(error);
+    for (size_t k = 0; k < p->n + p->barriers.n; k++) of[k] = class_of(p, k);
+    gaps.feature = of;
+    gaps.barrier = of + p->n;
+    const bool done = sunder_layer_set_gaps(p->layer, &gaps, &why) == SUNDER_OK;
+    free(of);
+    return done || gis_core_failed(error, "--spec: gaps", &why);
 }
 
 /* Sets what it costs to hide features, if that is allowed. */
@@ -297,7 +320,7 @@ static bool separate_part(gis_part *p, gis_error *error)
     const bool made = sunder_layer_new(feature, p->n, &p->layer, &why) == SUNDER_OK;
     free(feature);
     if (made && (!set_sides(p, error) || !set_rows(p, error) || !gis_barriers_set(&p->barriers, p->layer, error) ||
-                 !set_originals(p, error) || !set_hiding(p, error) || !set_levels(p, error)))
+                 !set_gaps(p, error) || !set_originals(p, error) || !set_hiding(p, error) || !set_levels(p, error)))
         return false;
     if (!made || sunder_layer_separate(p->layer, &options, &p->report, &why) != SUNDER_OK)
         return tell_failure(p, &why, error);

@@ -29,6 +29,8 @@ typedef struct gis_layout {
     size_t features;               /* number of features in the input: things with numbers from here on are barriers;
                                     * set by the caller */
     sunder_layer_options how;
+    sunder_gaps gaps;            /* the tables by classes, and which classes there are, borrowed; set by the caller if
+                                  * gaps depend on classes */
     double halo;                 /* distance around a shard within which features are read with it; a guess */
     gis_part_block *block, *row; /* the numbered blocks, and the rows of --rows FIELD likewise */
     size_t blocks, rows;

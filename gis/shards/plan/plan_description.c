@@ -66,6 +66,11 @@ static void describe_plan(gis_json *out, const gis_plan *plan, const gis_plan_lo
     for (size_t k = 0; k < plan->arguments; k++) gis_json_string(out, plan->argument[k]);
     gis_json_close(out, ']');
     gis_json_line(out);
+    if (plan->gaps && *plan->gaps) {
+        gis_json_key(out, "gaps");
+        gis_json_raw(out, plan->gaps);
+        gis_json_line(out);
+    }
     gis_json_put_string(out, "layer", plan->facts.name);
     gis_json_put_size(out, "features", plan->facts.source.features);
     gis_json_put_size(out, "vertices", plan->facts.vertices);

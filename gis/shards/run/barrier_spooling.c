@@ -2,6 +2,7 @@
  * time, and each barrier is written as it is read. */
 #include "shards/run/barrier_spooling.h"
 
+#include "layer/gap_rules.h"
 #include "shards/spool/barrier_spool.h"
 
 #include <cpl_conv.h>
@@ -12,6 +13,7 @@ enum { BATCH = 8192 };
 typedef struct spooling {
     gis_barriers_writer *writer;
     const gis_barrier_request *request;
+    uint32_t gap_class; /* of the barriers of that request */
     size_t n;
 } spooling;
 
@@ -23,22 +25,27 @@ static bool take_barrier(void *user, const gis_barrier_common *common, gis_barri
         .fid = f->fid,
         .layer = common->layer,
         .demands = gis_barrier_demands(f, s->request, common),
+        .gap_class = s->gap_class,
     };
     const bool done = gis_barriers_add(s->writer, &barrier, error);
     gis_barrier_feature_clear(f);
     return done;
 }
 
-static bool spool_all(const gis_barrier_request *requests, size_t n, const gis_barrier_surroundings *around,
-                      const char *directory, gis_error *error)
+static bool spool_all(const gis_layer_input *input, const gis_barrier_surroundings *around, const char *directory,
+                      gis_error *error)
 {
+    const gis_layer_input_request *request = input->request;
+    const gis_gap_classes *classes = request->rules.classes;
+    const sunder_gaps gaps = gis_class_gaps_core(classes, &input->class_tables);
     spooling s = {0};
-    bool done = gis_barriers_create(directory, around->least_gap >= 0 ? around->least_gap : around->gap,
-                                    around->gap, &s.writer, error);
-    for (size_t k = 0; k < n && done; k++) {
+    bool done = gis_barriers_create(directory, around->least_gap >= 0 ? around->least_gap : around->gap, around->gap,
+                                    &gaps, &s.writer, error);
+    for (size_t k = 0; k < request->barriers && done; k++) {
         gis_barrier_common common;
-        s.request = &requests[k];
-        done = gis_barrier_visit(&requests[k], around, BATCH, take_barrier, &s, &common, error);
+        s.request = &request->barrier[k];
+        s.gap_class = classes ? gis_class_gaps_of_barrier(classes, k) : 0;
+        done = gis_barrier_visit(s.request, around, BATCH, take_barrier, &s, &common, error);
         CPLFree(common.layer);
     }
     done = done && gis_barriers_finish(s.writer, error);
@@ -46,14 +53,14 @@ static bool spool_all(const gis_barrier_request *requests, size_t n, const gis_b
     return done;
 }
 
-bool gis_barriers_spool(const gis_barrier_request *requests, size_t n, const gis_barrier_surroundings *around,
-                        const char *directory, gis_error *error)
+bool gis_barriers_spool(const gis_layer_input *input, const gis_barrier_surroundings *around, const char *directory,
+                        gis_error *error)
 {
-    if (spool_all(requests, n, around, directory, error)) return true;
+    if (spool_all(input, around, directory, error)) return true;
     if (!error->in_a_box) return false;
     gis_barrier_surroundings all = *around;
     all.without_box = true;
-    return spool_all(requests, n, &all, directory, error);
+    return spool_all(input, &all, directory, error);
 }
 
 /* ---- Targets ----------------------------------------------------------------------------------------------------- */

@@ -73,8 +73,9 @@ static bool take_demands(spooling *s, gis_error *error)
     gis_layer_default_demands(input);
     gis_layer_box(input, box);
     gis_box_join(s->shapes, box);
-    if (!gis_layer_marks(input, error) || !take_rigid(s, error) || !gis_layer_number_blocks(input, &s->keys, error) ||
-        !gis_layer_number_rows(input, &s->rows, error) || !weigh_batch(s, error) || !gis_layer_limits(input, error))
+    if (!gis_layer_marks(input, error) || !take_rigid(s, error) || !gis_class_gaps_read(input, error) ||
+        !gis_layer_number_blocks(input, &s->keys, error) || !gis_layer_number_rows(input, &s->rows, error) ||
+        !weigh_batch(s, error) || !gis_layer_limits(input, error))
         return false;
     gis_layer_box(input, box);
     gis_box_join(s->facts->box, box);
@@ -136,7 +137,8 @@ static bool add_feature(spooling *s, size_t i, char **copy, gis_error *error)
                                  .start = {NAN, NAN},
                                  .area = by_area(s) ? sunder_shape_area(input->shape[i]) : 0,
                                  .row = input->row ? input->row[i] + 1 : 0,
-                                 .rigid = s->rigid && s->rigid[i]};
+                                 .rigid = s->rigid && s->rigid[i],
+                                 .gap_class = input->gap_class ? input->gap_class[i] : 0};
     const gis_layer_rules *rules = &input->request->rules;
     if (rules->hide && !aside && !gis_layer_check_class(input, i, error)) return false;
     if ((rules->hide || gis_levels_asked(rules)) && !aside) feature.hiding = gis_layer_hiding_cost(input, i);
@@ -163,6 +165,7 @@ static void note_feature(gis_layer_facts *facts, const gis_layer_input *input, s
               : demands->fixed || demands->max_shift == 0 ? SUNDER_FEATURE_FIXED
                                                           : SUNDER_FEATURE_UNMOVED;
     facts->skipped += demands->ignored;
+    if (input->gap_class) facts->class_there[input->gap_class[i]] = true;
     facts->vertices += shape ? sunder_shape_vertices(shape) : 0;
     facts->multi = facts->multi || (shape && sunder_shape_polygons(shape) > 1);
     if (!demands->ignored && !demands->fixed) facts->longest_limit = fmax(facts->longest_limit, demands->max_shift);
@@ -275,14 +278,13 @@ bool gis_layer_spool_barriers(const gis_layer_input *input, double reach, gis_sp
         .units = &input->units,
         .targets = targets,
         .reach = reach,
-        .gap = input->gap,
+        .gap = gis_class_gaps_most(input),
         .least_gap = request->rules.least_gap.text ? input->least_gap : -1,
         .invalid = request->invalid,
         .output = request->output,
         .update = request->update,
     };
-    const bool done = (targets || gis_no_memory(error)) &&
-                      gis_barriers_spool(request->barrier, request->barriers, &around, directory, error);
+    const bool done = (targets || gis_no_memory(error)) && gis_barriers_spool(input, &around, directory, error);
     gis_barrier_targets_free(targets);
     return done;
 }

@@ -3,7 +3,7 @@
 #ifndef GIS_LAYER_SPOOLING_H
 #define GIS_LAYER_SPOOLING_H
 
-#include "layer/layer_input.h"
+#include "layer/gap_rules.h"
 #include "shards/parts/contact_group.h"
 #include "shards/spool/spool.h"
 
@@ -20,11 +20,13 @@ typedef struct gis_layer_facts {
     bool has_id; /* --id-field is given, and its values are of type id_type: OFTInteger64, OFTReal or OFTString */
     OGRFieldType id_type;
     size_t invalid, null, other;
-    size_t skipped;          /* number of features that conflict with nothing; they are not in the spool */
-    size_t aside;            /* number of these that are in GIS_SPOOL_ASIDE */
-    size_t enlarged;         /* number of features made larger */
-    size_t vertices;         /* of all shapes after cleaning, as sunder_layer_summary counts them */
-    double box[4];           /* of all features that may conflict; box[0] > box[2]: there are none */
+    size_t skipped;  /* number of features that conflict with nothing; they are not in the spool */
+    size_t aside;    /* number of these that are in GIS_SPOOL_ASIDE */
+    size_t enlarged; /* number of features made larger */
+    size_t vertices; /* of all shapes after cleaning, as sunder_layer_summary counts them */
+    double box[4];   /* of all features that may conflict; box[0] > box[2]: there are none */
+    /* The classes for gaps that features have. */
+    bool class_there[GIS_MOST_CLASSES];
     bool multi;              /* a shape has several polygons, so symbols are written as MultiPolygons */
     uint64_t checksum;       /* of everything that determines the moves, as it was read (layer/layer_checksum.h) */
     gis_contact_group group; /* the largest contact group in the input, or a set that contains it (shard_run.c) */

@@ -89,18 +89,33 @@ static bool choose_parts(gis_shard_run *p, double memory, gis_error *error)
     return true;
 }
 
+/* The layer, as far as it is known without its features. */
+static gis_layer_input known_input(const gis_shard_run *p)
+{
+    return (gis_layer_input){.request = p->request,
+                             .points = p->facts.points,
+                             .units = p->facts.units,
+                             .gap = p->facts.gap,
+                             .least_gap = p->facts.least_gap,
+                             .max_shift = p->facts.max_shift,
+                             .tolerance = p->facts.tolerance,
+                             .class_tables = p->tables,
+                             .blocks_given = p->request->rules.enlarge,
+                             .barrier_reach = p->facts.barrier_reach};
+}
+
+static bool find_tables(gis_shard_run *p, gis_error *error)
+{
+    gis_layer_input input = known_input(p);
+    const bool done = gis_class_gaps_tables(&input, error);
+    p->tables = input.class_tables;
+    return done;
+}
+
 /* Sets the options for the core, as gis_layer_core_options() does for a layer that is held in memory. */
 static void choose_options(gis_shard_run *p)
 {
-    const gis_layer_input input = {.request = p->request,
-                                   .points = p->facts.points,
-                                   .units = p->facts.units,
-                                   .gap = p->facts.gap,
-                                   .least_gap = p->facts.least_gap,
-                                   .max_shift = p->facts.max_shift,
-                                   .tolerance = p->facts.tolerance,
-                                   .blocks_given = p->request->rules.enlarge,
-                                   .barrier_reach = p->facts.barrier_reach};
+    const gis_layer_input input = known_input(p);
     p->layout.how = gis_layer_core_options(&input);
     p->layout.rules = &p->request->rules;
     p->layout.lengths = &p->lengths;
@@ -115,14 +130,19 @@ static bool open_spool(gis_shard_run *p, double memory, gis_error *error)
 {
     const gis_layer_rules *rules = &p->request->rules;
     const bool numbered = rules->block_field || rules->rows_field || rules->enlarge;
+    if (!find_tables(p, error)) return false;
+    const gis_layer_input input = known_input(p);
+    const double gap = gis_class_gaps_most(&input);
     const bool done =
         gis_rung_lengths_read(rules, &p->facts.units, &p->lengths, error) &&
         gis_spool_open(p->directory, &p->spool, error) &&
         (gis_spool_parts(p->spool) == parts_of(p->shards) ||
          gis_fail(error, "%s: its cells are assigned to other shards; make the plan anew", p->directory)) &&
         (p->request->barriers == 0 || gis_barriers_open(p->directory, &p->barriers, error)) &&
-        choose_parts(p, memory, error) && gis_layout_make(p->spool, p->facts.gap, numbered, &p->layout, error);
-    if (p->request->rules.core.rows) p->layout.halo += row_gaps * p->facts.gap;
+        choose_parts(p, memory, error) && gis_layout_make(p->spool, gap, numbered, &p->layout, error);
+    if (rules->core.rows) p->layout.halo += row_gaps * gap;
+    p->layout.gaps = gis_class_gaps_core(rules->classes, &p->tables);
+    p->layout.gaps.there = p->facts.class_there;
     p->layout.barriers = p->barriers;
     p->layout.features = p->facts.source.features;
     p->layout.memory = memory;
@@ -137,8 +157,9 @@ static const double next_to_nothing = 1e-6;
 
 static bool find_group(gis_shard_run *p, gis_error *error)
 {
-    const double metres = p->facts.units.unit_metres,
-                 reach = fmax(p->facts.gap, p->facts.tolerance) + next_to_nothing / (metres > 0 ? metres : 1);
+    const gis_layer_input input = known_input(p);
+    const double metres = p->facts.units.unit_metres, reach = fmax(gis_class_gaps_most(&input), p->facts.tolerance) +
+                                                              next_to_nothing / (metres > 0 ? metres : 1);
     choose_options(p);
     if (!gis_contact_group_find(&p->layout, reach, p->layout.memory, &p->facts.group, error)) return false;
     gis_shard_run_warn_of_group(p);
@@ -198,7 +219,7 @@ bool gis_shard_run_open_source(gis_shard_run *parts, bool whole, gis_layer_input
     out->invalid = parts->facts.invalid;
     out->null = parts->facts.null;
     out->other = parts->facts.other;
-    return done;
+    return done && gis_class_gaps_tables(out, error);
 }
 
 /* ---- Shards ------------------------------------------------------------------------------------------------------ */
@@ -365,6 +386,7 @@ void gis_shard_run_clear(gis_shard_run *parts)
     gis_barriers_close(&parts->barriers);
     gis_layer_facts_clear(&parts->facts);
     gis_rung_lengths_clear(&parts->lengths);
+    gis_class_gaps_clear(&parts->tables);
     free(parts->block_fid);
     if (parts->scratch) {
         gis_remove_tree(parts->scratch);

@@ -23,6 +23,7 @@ typedef struct gis_shard_run {
     gis_leftover *leftover;
     gis_layer_facts facts;
     gis_rung_lengths lengths; /* of the rules for smaller shapes */
+    gis_class_tables tables;  /* gaps by classes, if they depend on them */
     gis_spool *spool;
     gis_spooled_barriers barriers;
     unsigned shards;  /* number of shards; the spool has a multiple of that number of parts */

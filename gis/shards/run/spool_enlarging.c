@@ -1,6 +1,8 @@
 /* spool_enlarging.c: see spool_enlarging.h. */
 #include "shards/run/spool_enlarging.h"
 
+#include "layer/gap_rules.h"
+
 #include "shards/parts/part.h"
 
 #include <stdlib.h>
@@ -45,8 +47,9 @@ bool gis_spool_enlarge(const gis_layer_input *input, const char *from, const cha
     gis_spool *spool = NULL;
     gis_layout layout = {0};
     *larger = 0;
-    bool done = gis_spool_open(from, &spool, error) &&
-                gis_layout_make(spool, input->gap, rules->block_field || rules->rows_field, &layout, error);
+    bool done =
+        gis_spool_open(from, &spool, error) &&
+        gis_layout_make(spool, gis_class_gaps_most(input), rules->block_field || rules->rows_field, &layout, error);
     layout.how = gis_layer_core_options(input);
     layout.rules = rules;
     layout.lengths = &input->lengths;

@@ -53,6 +53,7 @@ enum { ANY, LINES, BARE, SLACK, MOST, FACTS };
 struct gis_barriers_writer {
     char *directory;
     double gap, full_gap, most;
+    sunder_gaps gaps; /* by classes; classes 0: there are none */
     gis_spool_writer *all;
     size_t n;
     struct {
@@ -69,16 +70,34 @@ static double distance_with(const sunder_barrier *b, double gap)
     return (half - (sum - back)) + (gap - back) > 0 ? nextafter(sum, INFINITY) : sum;
 }
 
-/* The distance that features must keep from the barrier. */
-static double distance_owed(const gis_barriers_writer *w, const sunder_barrier *b)
+/* Sets `gap` to the least gap that features of any class keep from the barrier, and to the greatest full gap. */
+static void find_gaps(const gis_barriers_writer *w, const gis_spooled_barrier *barrier, double gap[2])
 {
-    return distance_with(b, b->gap < 0 ? w->gap : b->gap);
+    const sunder_barrier *b = &barrier->demands;
+    const size_t n = w->gaps.classes;
+    gap[0] = b->gap < 0 ? w->gap : b->gap;
+    gap[1] = b->full_gap > 0 ? b->full_gap : b->gap < 0 ? w->full_gap : b->gap;
+    for (size_t k = 0; k < n && b->gap < 0; k++) {
+        const size_t entry = barrier->gap_class * n + k;
+        gap[0] = k ? fmin(gap[0], w->gaps.gap[entry]) : w->gaps.gap[entry];
+        gap[1] = k ? fmax(gap[1], w->gaps.full_gap[entry]) : w->gaps.full_gap[entry];
+    }
 }
 
-/* The distance that features are to keep from the barrier if it pays. */
-static double full_distance(const gis_barriers_writer *w, const sunder_barrier *b)
+/* The least distance that features must keep from the barrier. */
+static double distance_owed(const gis_barriers_writer *w, const gis_spooled_barrier *barrier)
 {
-    return distance_with(b, b->full_gap > 0 ? b->full_gap : b->gap < 0 ? w->full_gap : b->gap);
+    double gap[2];
+    find_gaps(w, barrier, gap);
+    return distance_with(&barrier->demands, gap[0]);
+}
+
+/* The greatest distance that features are to keep from the barrier if it pays. */
+static double full_distance(const gis_barriers_writer *w, const gis_spooled_barrier *barrier)
+{
+    double gap[2];
+    find_gaps(w, barrier, gap);
+    return distance_with(&barrier->demands, gap[1]);
 }
 
 static size_t size_of(const sunder_obstacle *o)
@@ -108,7 +127,7 @@ static bool copy_barrier(const gis_spooled_barrier *from, gis_spooled_barrier *t
 static bool note_facts(gis_barriers_writer *w, const gis_spooled_barrier *barrier, gis_error *error)
 {
     const sunder_obstacle *o = &barrier->demands.geometry;
-    const double own = distance_owed(w, &barrier->demands), full = full_distance(w, &barrier->demands);
+    const double own = distance_owed(w, barrier), full = full_distance(w, barrier);
     const size_t size = size_of(o);
     const bool more = full > w->most || w->n == 1,
                is[FACTS] = {size > 0, o->lines > 0, own == 0, full > own, full >= w->most || more};
@@ -140,6 +159,7 @@ static bool add_barrier(gis_spool_writer *to, const gis_spooled_barrier *b, doub
         .id = b->layer,
         .lines = b->demands.geometry,
         .reach = reach,
+        .gap_class = b->gap_class,
     };
     return gis_spool_add(to, &feature, error);
 }
@@ -151,13 +171,14 @@ static bool make_directory(const char *path, gis_error *error)
            gis_fail(error, "%s: it cannot be made: %s", path, strerror(errno));
 }
 
-bool gis_barriers_create(const char *directory, double gap, double full_gap, gis_barriers_writer **out,
-                         gis_error *error)
+bool gis_barriers_create(const char *directory, double gap, double full_gap, const sunder_gaps *gaps,
+                         gis_barriers_writer **out, gis_error *error)
 {
     gis_barriers_writer *w = calloc(1, sizeof *w);
     if (!w) return gis_no_memory(error);
     w->gap = gap;
     w->full_gap = full_gap;
+    w->gaps = *gaps;
     w->directory = gis_disk_path(directory, GIS_BARRIERS);
     const bool done = (w->directory || gis_no_memory(error)) && make_directory(w->directory, error) &&
                       gis_spool_create(w->directory, NULL, &w->all, error);
@@ -172,7 +193,7 @@ bool gis_barriers_add(gis_barriers_writer *writer, const gis_spooled_barrier *ba
 {
     writer->n++;
     return note_facts(writer, barrier, error) &&
-           add_barrier(writer->all, barrier, full_distance(writer, &barrier->demands), error);
+           add_barrier(writer->all, barrier, full_distance(writer, barrier), error);
 }
 
 bool gis_barriers_finish(gis_barriers_writer *writer, gis_error *error)
@@ -187,8 +208,7 @@ bool gis_barriers_finish(gis_barriers_writer *writer, gis_error *error)
             again =
                 again || (writer->fact[i].there && writer->fact[i].barrier.number == writer->fact[k].barrier.number);
         if (!again)
-            done = add_barrier(few, &writer->fact[k].barrier, full_distance(writer, &writer->fact[k].barrier.demands),
-                               error);
+            done = add_barrier(few, &writer->fact[k].barrier, full_distance(writer, &writer->fact[k].barrier), error);
     }
     done = done && gis_spool_finish(few, 1, NULL, NULL, error) && gis_spool_finish(writer->all, 1, NULL, NULL, error);
     gis_spool_writer_free(few);
@@ -277,15 +297,15 @@ static bool take_barrier(void *user, const gis_spool_feature *f, gis_error *erro
         return gis_no_memory(error);
     }
     gis_spooled_barrier *b = &to->item[to->n++];
-    *b = (gis_spooled_barrier){
-        .number = f->index,
-        .fid = f->fid,
-        .layer = f->id ? f->id : "",
-        .demands = {.geometry = f->lines,
-                    .width = f->demands.weight,
-                    .gap = f->demands.max_shift,
-                    .side = f->demands.fixed,
-                    .full_gap = f->area}};
+    *b = (gis_spooled_barrier){.number = f->index,
+                               .fid = f->fid,
+                               .layer = f->id ? f->id : "",
+                               .gap_class = f->gap_class,
+                               .demands = {.geometry = f->lines,
+                                           .width = f->demands.weight,
+                                           .gap = f->demands.max_shift,
+                                           .side = f->demands.fixed,
+                                           .full_gap = f->area}};
     b->demands.geometry.shape = shape;
     return own_rest(b, error);
 }

@@ -19,6 +19,7 @@ typedef struct gis_spooled_barrier {
     int64_t fid;
     const char *layer; /* name of the layer */
     sunder_barrier demands;
+    uint32_t gap_class; /* its class for gaps */
 } gis_spooled_barrier;
 
 /* ---- Writing ----------------------------------------------------------------------------------------------------- */
@@ -26,9 +27,10 @@ typedef struct gis_spooled_barrier {
 typedef struct gis_barriers_writer gis_barriers_writer;
 
 /* Creates `barriers` in the directory, in place of an existing one. `gap` and `full_gap` are those of barriers without
- * a gap of their own; the latter is the greater, or they are equal. */
-bool gis_barriers_create(const char *directory, double gap, double full_gap, gis_barriers_writer **out,
-                         gis_error *error);
+ * a gap of their own; the latter is the greater, or they are equal. The tables of `gaps`, which are borrowed, replace
+ * them if it has classes. */
+bool gis_barriers_create(const char *directory, double gap, double full_gap, const sunder_gaps *gaps,
+                         gis_barriers_writer **out, gis_error *error);
 bool gis_barriers_add(gis_barriers_writer *writer, const gis_spooled_barrier *barrier, gis_error *error);
 bool gis_barriers_finish(gis_barriers_writer *writer, gis_error *error);
 void gis_barriers_writer_free(gis_barriers_writer *writer);

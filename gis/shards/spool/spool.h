@@ -38,6 +38,7 @@ typedef struct gis_spool_feature {
     int64_t row;               /* number of its row of --rows FIELD, from 1 on; 0: none */
     sunder_hiding_cost hiding; /* what it costs to hide it; weight 0: nothing is hidden or smaller */
     bool rigid;                /* its shape never changes */
+    uint32_t gap_class;        /* its class for gaps */
     gis_spool_rings given;     /* the shape that it had before it became larger, borrowed; none if it did not */
     double reach;              /* its box is enlarged by this on all sides; 0 except for a barrier */
     uint64_t place;            /* offset of its record in the spool that it was read from */

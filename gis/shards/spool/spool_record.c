@@ -30,7 +30,8 @@ enum {
     HIDING = 1 << 10,
     RIGID = 1 << 11,
     GIVEN = 1 << 12,
-    ALL = (1 << 13) - 1
+    CLASS = 1 << 13,
+    ALL = (1 << 14) - 1
 };
 
 /* Number of lines and of their points, for a record with LINES. */
@@ -55,7 +56,8 @@ static const size_t size_of[] = {0,
                                  sizeof(int64_t),
                                  2 * sizeof(int64_t),
                                  0,
-                                 sizeof(given_counts)};
+                                 sizeof(given_counts),
+                                 sizeof(int64_t)};
 
 /* The offset of the data of the member `flag`; for ALL + 1, the end of all optional members. */
 static size_t place_of(const gis_spool_head *head, uint32_t flag)
@@ -217,7 +219,8 @@ static uint32_t flags_of(const gis_spool_feature *feature, const content *c, boo
     return (demands->fixed ? FIXED : 0) | (repaired ? REPAIRED : 0) | (demands->block != -1 ? BLOCK : 0) |
            (feature->area != 0 ? AREA : 0) | (started ? START : 0) | (feature->reach != 0 ? REACH : 0) |
            (other_box ? BOX : 0) | (c->of_lines.lines ? LINES : 0) | (feature->id ? ID : 0) | (feature->row ? ROW : 0) |
-           (feature->hiding.weight ? HIDING : 0) | (feature->rigid ? RIGID : 0) | (c->of_given.polygons ? GIVEN : 0);
+           (feature->hiding.weight ? HIDING : 0) | (feature->rigid ? RIGID : 0) | (c->of_given.polygons ? GIVEN : 0) |
+           (feature->gap_class ? CLASS : 0);
 }
 
 bool gis_spool_record_make(gis_spool_room *room, const gis_spool_feature *feature, gis_error *error)
@@ -259,6 +262,7 @@ bool gis_spool_record_make(gis_spool_room *room, const gis_spool_feature *featur
     put_member(room->at, &head, HIDING, (int64_t[2]){feature->hiding.hierarchy, feature->hiding.weight},
                2 * sizeof(int64_t));
     put_member(room->at, &head, GIVEN, &c.of_given, sizeof c.of_given);
+    put_member(room->at, &head, CLASS, &(int64_t){feature->gap_class}, sizeof(int64_t));
     put_given(room->at, &c, &feature->given);
     if (vertices) memcpy(room->at + c.xy, xy, 2 * vertices * sizeof *xy);
     if (points) memcpy(room->at + c.line_xy, feature->lines.xy, 2 * points * sizeof *xy);
@@ -316,8 +320,10 @@ bool gis_spool_record_feature(unsigned char *record, size_t left, gis_spool_feat
     get_member(record, &head, START, feature->start, sizeof feature->start);
     get_member(record, &head, REACH, &feature->reach, sizeof feature->reach);
     get_member(record, &head, ROW, &feature->row, sizeof feature->row);
-    int64_t hiding[2] = {0};
+    int64_t hiding[2] = {0}, gap_class = 0;
     get_member(record, &head, HIDING, hiding, sizeof hiding);
+    get_member(record, &head, CLASS, &gap_class, sizeof gap_class);
+    feature->gap_class = (uint32_t)gap_class;
     feature->hiding = (sunder_hiding_cost){(uint32_t)hiding[0], hiding[1]};
     return true;
 }

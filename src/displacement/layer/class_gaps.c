@@ -52,7 +52,8 @@ static void find_parts(const sunder_gaps *gaps, size_t features, sunder_i_class_
 {
     const size_t n = out->n;
     bool has[MOST_CLASSES] = {false};
-    for (size_t k = 0; k < features; k++) has[gaps->feature[k]] = true;
+    for (size_t k = 0; k < features && !gaps->there; k++) has[gaps->feature[k]] = true;
+    for (size_t k = 0; k < n && gaps->there; k++) has[k] = gaps->there[k];
     for (size_t i = 0; i < n; i++) {
         out->part[i] = INFINITY;
         for (size_t j = 0; j < n; j++) {
