@@ -8,6 +8,7 @@
 #include "layer/levels.h"
 #include "layer/moves.h"
 #include "legible/legible.h"
+#include "page/check_page.h"
 #include "read/source_files.h"
 
 #include <cpl_conv.h>
@@ -249,11 +250,18 @@ static void json_check(gis_json *out, const check_run *run)
 static bool deliver_check(const check_run *run, bool taken, gis_error *error)
 {
     gis_json stats = {0};
+    gis_text page = {0};
     if (run->to.stats) json_check(&stats, run);
-    const gis_delivery delivery = {
-        .to = &run->to, .sink = run->sink, .stats = &stats, .print = taken ? NULL : print_check, .run = run};
-    bool ok = gis_deliver(&delivery, error);
+    const gis_delivery delivery = {.to = &run->to,
+                                   .sink = run->sink,
+                                   .stats = &stats,
+                                   .report = &page,
+                                   .print = taken ? NULL : print_check,
+                                   .run = run};
+    bool ok = (!run->to.report || gis_check_page_write(&run->input, run->report, &run->legible, &page, error)) &&
+              gis_deliver(&delivery, error);
     gis_json_clear(&stats);
+    gis_text_clear(&page);
     return ok;
 }
 

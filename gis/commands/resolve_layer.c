@@ -273,7 +273,7 @@ bool gis_resolve_layer(const gis_options *options, gis_layer_input_request *out,
         .symbol_size_field = options->text[OPT_SYMBOL_SIZE_FIELD],
         .wound = options->given[OPT_BEFORE],
         .moves = options->command->bit == GIS_SEPARATE,
-        .drawn = options->given[OPT_REPORT],
+        .drawn = options->given[OPT_REPORT] && options->command->bit != GIS_CHECK,
         .may_have_symbols = (gis_option_table[OPT_SYMBOL].commands & options->command->bit) != 0,
     };
     if (options->given[OPT_LINKS] && !gis_links_parse(options->text[OPT_LINKS], &out->links, error)) return false;

@@ -69,6 +69,17 @@ sheet '{"area": "4.1m2"}'
 expect 0 check --spec sheet.json --print-spec
 same "$(jq -c .legible out)" '{"area":"4.1m2"}' 'the effective sheet:'
 
+# ---- The page: the worst first, pictures of both features or of one, nothing from elsewhere
+sheet '{"area": "4.1m2", "neck": "0.6mm"}' '.layers[0].gap = 15'
+expect 3 check --spec sheet.json --report page.html -q
+same "$(sed -n 's/.*<\/svg><\/td><td>\([a-z ]*\)<.*/\1/p' page.html | tr '\n' ';')" 'too close;neck;too close;too small;too small;' 'the page:'
+same "$(grep -oE 'class="(shape|link)"' page.html | cut -c 8 | tr -d '\n')" sslslsslslsl 'pictures:'
+grep -q 'layer f, FID 3' page.html || fail "the page does not name its features"
+grep -qE 'src=|href=|url\(|<script' page.html && fail "the page loads something"
+cp page.html first.html
+expect 3 check --spec sheet.json --report page.html -q
+cmp -s page.html first.html || fail "the page is not the same again"
+
 # ---- Other commands pass it over; symbols have a size; lines have none
 sheet '{"area": 100}'
 expect 0 separate --spec sheet.json a.gpkg -q

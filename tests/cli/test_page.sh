@@ -174,7 +174,7 @@ refused 2 'that is an input' separate in.gpkg o.gpkg --report in.gpkg
 refused 2 'that is the file of --stats' separate in.gpkg o.gpkg --report s.json --stats ./s.json
 refused 1 'cannot write to' separate in.gpkg o.gpkg --report nowhere/r.html
 refused 1 'is a directory' separate in.gpkg o.gpkg --report again
-refused 2 'unknown option' check in.gpkg --report r.html
+refused 2 'unknown option' buffer in.gpkg o.gpkg --shape disc:1:8 --report r.html
 echo 'of an earlier run' >r.html
 expect 0 separate in.gpkg o.gpkg --report r.html -q
 page r.html
