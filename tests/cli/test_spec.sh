@@ -99,6 +99,7 @@ wrong 'no layer has the class road; did you mean roads?' '.gaps = [{"between": [
 wrong 'gaps[0]: "between" must be' '.gaps = [{"gap": 1}]'
 wrong 'gaps[0].gap: -1' '.gaps = [{"between": ["*", "*"], "gap": -1}]'
 wrong 'the least gap, 3, is greater than the gap, 2' '.gaps = [{"between": ["houses", "roads"], "gap": 2, "least": 3}]'
+wrong 'gaps: 1024 classes; at most 1023' '.gaps = [range(1024) | {"between": ["k\(.)", "*"], "gap": 1}] | .layers[0].class = {"field": "kind"}'
 wrong 'layers[1].width: must be a length' '.layers[1].width = {"by": "class"}'
 wrong 'must be true or false' '.defaults.no_blocks = "yes"'
 wrong 'follow' '.layers[1].role = "follow"'
