@@ -181,7 +181,7 @@ UNTRUE = {"class": another_class, "class of a barrier": another_class_of_a_barri
 
 def main(sunder, seed, layers, effort):
     wrong, asked, made, bounds, of_area, refused, at = [], {}, 0, 0, 0, 0, seed
-    while made < layers or (set(UNTRUE) - set(asked) and at < seed + MOST_LAYERS):
+    while made < layers or ((set(UNTRUE) - set(asked) or not of_area) and at < seed + MOST_LAYERS):
         rng, at = random.Random(at), at + 1
         drawn(rng)
         words = ["--effort", effort]
