@@ -33,7 +33,7 @@ typedef struct check_run {
 /* Opens the output before the computation; does nothing without OUTPUT. */
 static bool open_sink(check_run *run, gis_error *error)
 {
-    const char *path = run->to.output, *source = gis_source_name(run->input.source);
+    const char *path = run->to.output, *source = gis_layer_title(&run->input);
     if (!path) return true;
     size_t size = strlen(source) + sizeof "_conflicts";
     run->layer = malloc(size);
@@ -50,7 +50,7 @@ static bool check_moves(check_run *run, gis_error *error)
     double box[4];
     if (!run->options->given[OPT_BEFORE]) return true;
     gis_layer_box(&run->input, box);
-    gis_resolve_original(run->options, &run->request, gis_source_name(run->input.source), &original);
+    gis_resolve_original(run->options, &run->request, gis_layer_title(&run->input), &original);
     original.also = box;
     original.moves = true; /* hence the same barriers count as when the features were moved */
     if (!gis_moves_check(&original, &run->input, &run->progress, &run->moves, error)) return false;
@@ -65,17 +65,28 @@ static bool write_layer(check_run *run, gis_error *error)
     gis_sink_layer *layer;
     if (!run->sink) return true;
     return gis_conflicts_begin(run->sink, "", gis_id_type(&run->input), gis_source_crs(run->input.source), false,
-                               run->request.rules.has_least_gap, &layer, error) &&
+                               run->input.parts > 0, run->request.rules.has_least_gap, &layer, error) &&
            gis_write_report_conflicts(layer, &run->input, run->report, error) &&
            gis_write_moves(layer, &run->moves, error) && gis_write_legible(layer, &run->input, &run->legible, error) &&
            gis_sink_finish(run->sink, &result, error);
+}
+
+/* Examines the features of each layer by its own rules. */
+static bool check_legible(check_run *run, gis_error *error)
+{
+    const gis_options *options = run->options;
+    bool ok = run->input.parts || gis_legible_check(&run->input, options->legible, &run->legible, error);
+    for (size_t k = 0; ok && k < run->input.parts; k++)
+        ok = gis_legible_check(&run->input.part[k], k ? options->more[k - 1].legible : options->legible, &run->legible,
+                               error);
+    return ok;
 }
 
 /* Checks and writes everything; only gis_deliver(), which puts the files in place, is left to do. */
 static bool check_and_write(check_run *run, gis_error *error)
 {
     if (!open_sink(run, error)) return false;
-    if (!gis_legible_check(&run->input, run->options->legible, &run->legible, error)) return false;
+    if (!check_legible(run, error)) return false;
     if (!run->options->given[OPT_BEFORE]) gis_layer_forget_demands(&run->input);
     gis_progress_stage(&run->progress, GIS_CHECK_READ, GIS_CHECK_CHECKED);
     if (!gis_layer_run(&run->input, sunder_layer_check, &run->progress, NULL, &run->report, &run->summary, error))
@@ -106,9 +117,10 @@ static void print_value(const gis_value *value)
     }
 }
 
-static void print_row(const gis_value values[N_CONFLICT_COLUMNS])
+static void print_row(const check_run *run, const gis_value values[N_CONFLICT_COLUMNS])
 {
-    for (int column = 0; column < COLUMN_BY_ROW; column++) {
+    for (int column = 0; column < N_CONFLICT_COLUMNS; column++) {
+        if (column == COLUMN_BY_ROW || (column > COLUMN_BY_ROW && !run->input.parts)) continue;
         if (column) putchar('\t');
         print_value(&values[column]);
     }
@@ -124,18 +136,18 @@ static bool print_lines(const check_run *run, gis_error *error)
     for (size_t k = 0; ok && k < n; k++) {
         gis_value values[N_CONFLICT_COLUMNS];
         ok = gis_go_on(error) && gis_conflict_values(&run->input, &conflicts[k], &scratch, values, error);
-        if (ok) print_row(values);
+        if (ok) print_row(run, values);
     }
     for (size_t k = 0; ok && k < gis_moves_rows(&run->moves); k++) {
         gis_value values[N_CONFLICT_COLUMNS];
         double from[2], to[2];
         ok = gis_go_on(error) && gis_moves_row(&run->moves, k, &scratch, values, from, to, error);
-        if (ok) print_row(values);
+        if (ok) print_row(run, values);
     }
     for (size_t k = 0; ok && k < run->legible.n; k++) {
         gis_value values[N_CONFLICT_COLUMNS];
         ok = gis_go_on(error) && gis_legible_row(&run->input, &run->legible, k, &scratch, values, error);
-        if (ok) print_row(values);
+        if (ok) print_row(run, values);
     }
     gis_conflict_texts_clear(&scratch);
     return ok;
@@ -164,7 +176,7 @@ static void print_counts(const check_run *run)
     const sunder_conflict_counts *counts = &run->summary.before;
     printf("%s: %zu features (skipped %zu, invalid %zu, null %zu), %zu pairs tested; overlap %zu, too close %zu, "
            "barrier %zu, barrier drawn %zu, barrier near %zu, contained %zu, duplicate %zu, inside blocks %zu",
-           gis_source_name(run->input.source), run->input.n, run->summary.skipped, run->input.invalid, run->input.null,
+           gis_layer_title(&run->input), run->input.n, run->summary.skipped, run->input.invalid, run->input.null,
            run->summary.pairs_tested, counts->overlap, counts->too_close, counts->barrier, counts->barrier_drawn,
            counts->barrier_near, counts->contained, counts->duplicate, counts->inside_blocks);
     if (run->summary.inside_overlaps)
@@ -175,6 +187,13 @@ static void print_counts(const check_run *run)
 }
 
 /* The numbers of features, or parts of them, that are below a least size. */
+static bool is_asked_to_be_legible(const gis_legible *legible)
+{
+    bool any = false;
+    for (int kind = 0; kind < SUNDER_ILLEGIBLE_KINDS; kind++) any = any || legible->asked[kind];
+    return any;
+}
+
 static void print_legible(const gis_legible *legible)
 {
     const char *before = "legible: ";
@@ -192,7 +211,7 @@ static bool print_check(const void *checked, gis_error *error)
     if (!print_lines(run, error)) return false;
     if (!run->options->given[OPT_QUIET]) print_counts(run);
     if (run->options->given[OPT_BEFORE] && !run->options->given[OPT_QUIET]) print_moves(&run->moves);
-    if (run->options->legible && !run->options->given[OPT_QUIET]) print_legible(&run->legible);
+    if (is_asked_to_be_legible(&run->legible) && !run->options->given[OPT_QUIET]) print_legible(&run->legible);
     return true;
 }
 
@@ -241,7 +260,7 @@ static void json_check(gis_json *out, const check_run *run)
     gis_json_conflict_counts(out, &run->summary.before);
     if (run->request.rules.has_least_gap) json_tight(out, run);
     if (run->options->given[OPT_BEFORE]) json_moves(out, &run->moves);
-    if (run->options->legible) json_legible(out, &run->legible);
+    if (is_asked_to_be_legible(&run->legible)) json_legible(out, &run->legible);
     gis_json_sheet(out, run->options);
     gis_json_close(out, '}');
     gis_json_raw(out, "\n");

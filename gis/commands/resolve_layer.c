@@ -257,7 +257,8 @@ static bool check_before(const gis_options *options, gis_error *error)
     return true;
 }
 
-bool gis_resolve_layer(const gis_options *options, gis_layer_input_request *out, gis_error *error)
+/* The request for one layer, without those that move with it. */
+static bool resolve_one(const gis_options *options, gis_layer_input_request *out, gis_error *error)
 {
     *out = (gis_layer_input_request){
         .source = gis_resolve_source(options),
@@ -267,6 +268,7 @@ bool gis_resolve_layer(const gis_options *options, gis_layer_input_request *out,
         .previous = options->text[OPT_PREVIOUS],
         .previous_stays = options->text[OPT_PREVIOUS_RELAX] && strcmp(options->text[OPT_PREVIOUS_RELAX], "no") == 0,
         .links = {.radius = gis_resolve_length(options, OPT_LINKS_RADIUS)},
+        .name = options->layer_name,
         .id_field = options->text[OPT_ID_FIELD],
         .symbol = options->text[OPT_SYMBOL],
         .symbol_field = options->text[OPT_SYMBOL_FIELD],
@@ -280,4 +282,67 @@ bool gis_resolve_layer(const gis_options *options, gis_layer_input_request *out,
     return gis_resolve_invalid(options, &out->invalid, error) && resolve_rules(options, &out->rules, error) &&
            check_before(options, error) && resolve_barriers(options, out, error) &&
            resolve_least_gaps(options, out, error);
+}
+
+/* ---- Layers that move together ----------------------------------------------------------------------------------- */
+
+/* Refuses what is of one layer alone. */
+static bool check_together(const gis_options *options, gis_error *error)
+{
+    static const gis_option_id not_with[] = {OPT_PROOF,       OPT_MAX_MEMORY,  OPT_PREVIOUS, OPT_LINKS,
+                                             OPT_BEFORE,      OPT_TRIM,        OPT_INSET,    OPT_ENLARGE,
+                                             OPT_SYMBOL_SIZE, OPT_HIDDEN_FIELD};
+    for (size_t k = 0; k < sizeof not_with / sizeof *not_with; k++)
+        if (options->given[not_with[k]])
+            return gis_fail_usage(error, "--spec: not with several layers that move: %s",
+                                  gis_option_table[not_with[k]].names);
+    if (rows_field_of(options))
+        return gis_fail_usage(error, "--spec: with several layers that move rows are auto or no");
+    return options->command->bit != GIS_PLAN ||
+           gis_fail_usage(error, "--spec: not in a plan: several layers that move");
+}
+
+static bool has_symbols(const gis_layer_input_request *request) { return request->symbol || request->symbol_field; }
+
+/* What the core's options say of one layer becomes a rule for its features. */
+static void set_traits(gis_layer_rules *rules, bool points)
+{
+    rules->joins_none = rules->core.no_blocks || (points && !rules->touch_tolerance.text);
+    rules->may_jump = rules->core.allow_jumps || points;
+    rules->in_no_row = !rules->core.rows;
+}
+
+/* Sets what the core's options are for all layers together; `out` is the request for the first one. Rows are found if
+ * one layer has rows, and so on. */
+static void unite_rules(gis_layer_input_request *out)
+{
+    gis_layer_rules *rules = &out->rules;
+    const gis_layer_input_request *polygons = has_symbols(out) ? NULL : out;
+    set_traits(rules, has_symbols(out));
+    for (size_t k = 0; k < out->more; k++) {
+        gis_layer_input_request *with = &out->with[k];
+        set_traits(&with->rules, has_symbols(with));
+        if (!polygons && !has_symbols(with)) polygons = with;
+        if (with->rules.core.rows) rules->core.rows = SUNDER_ROWS_FOUND;
+        rules->hide = rules->hide || with->rules.hide;
+    }
+    rules->core.no_blocks = rules->core.allow_jumps = false;
+    if (polygons) rules->core.contained = polygons->rules.core.contained;
+}
+
+bool gis_resolve_layer(const gis_options *options, gis_layer_input_request *out, gis_error *error)
+{
+    if (!resolve_one(options, out, error)) return false;
+    if (options->n_more == 0) return true;
+    out->with = calloc(options->n_more, sizeof *out->with);
+    if (!out->with) return gis_no_memory(error);
+    if (!check_together(options, error)) return false;
+    for (size_t k = 0; k < options->n_more; k++) {
+        out->more = k + 1;
+        if (!check_together(&options->more[k], error) || !resolve_one(&options->more[k], &out->with[k], error))
+            return false;
+    }
+    out->title = options->sheet_name;
+    unite_rules(out);
+    return true;
 }

@@ -10,6 +10,8 @@
 #include "layer/far_moves.h"
 #include "layer/result_held.h"
 
+#include <stdlib.h>
+
 /* Copies the layer to disk and opens the source a second time, to write from. Features are read from it in batches,
  * unless the format requires that features be compared after writing. */
 static bool read_in_parts(gis_separate_run *run, double memory, gis_error *error)
@@ -29,6 +31,14 @@ static bool read_whole(gis_separate_run *run, gis_error *error)
 {
     run->source_held = true;
     return gis_layer_input_read(&run->request, &run->input, error) && gis_layer_set_preferred(&run->input, error);
+}
+
+/* Refuses results that would replace an input. */
+static bool spare_inputs(const gis_separate_run *run, gis_error *error)
+{
+    for (size_t k = 1; k < run->input.parts; k++)
+        if (!gis_destinations_spare(&run->to, run->input.part[k].source, error)) return false;
+    return gis_destinations_spare(&run->to, run->input.source, error);
 }
 
 static bool separate_whole(gis_separate_run *run, gis_error *error)
@@ -73,6 +83,7 @@ int gis_separate_end(gis_separate_run *run, bool done, const gis_error *error)
         done ? gis_complete_status(run->options, gis_any_conflict(&run->summary.after)) : gis_say_failure(error);
     gis_trace_clear(&run->trace);
     gis_sink_free(run->sink);
+    free(run->more);
     sunder_report_free(run->report);
     gis_layer_input_clear(&run->input);
     gis_shard_run_clear(&run->parts);
@@ -91,8 +102,8 @@ int gis_command_separate(const gis_options *options)
     const bool in_parts = ok && memory > 0;
     if (in_parts && run.to.trace)
         ok = gis_fail_usage(&error, "--trace needs the whole layer in memory; leave out --max-memory");
-    ok = ok && (in_parts ? read_in_parts(&run, memory, &error) : read_whole(&run, &error)) &&
-         gis_destinations_spare(&run.to, run.input.source, &error);
+    ok =
+        ok && (in_parts ? read_in_parts(&run, memory, &error) : read_whole(&run, &error)) && spare_inputs(&run, &error);
     run.read = gis_clock() - run.start;
     ok = ok && (in_parts ? separate_in_parts(&run, &error) : separate_whole(&run, &error)) &&
          gis_separate_deliver(&run, &error);

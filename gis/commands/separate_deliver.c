@@ -21,7 +21,7 @@ static bool write_page(const gis_separate_run *run, gis_text *page, gis_error *e
         .summary = &run->summary,
         .unit = gis_separate_unit(run),
         .output = run->to.output,
-        .main_layer = gis_resolve_sink(run->options, NULL, gis_source_name(run->input.source)).main_layer,
+        .main_layer = gis_resolve_sink(run->options, NULL, gis_layer_title(&run->input)).main_layer,
         .verified = run->verified,
         .optimality_gap = gis_separate_optimality_gap(&run->summary),
         .losses = gis_sink_losses(run->sink),

@@ -191,12 +191,33 @@ static void json_previous(gis_json *out, const gis_separate_run *run)
     gis_json_close(out, '}');
 }
 
+/* The layers that move together. */
+static void json_layers(gis_json *out, const gis_separate_run *run)
+{
+    gis_json_key(out, "layers");
+    gis_json_open(out, '[');
+    for (size_t k = 0; k < run->input.parts; k++) {
+        const gis_layer_input *part = &run->input.part[k];
+        size_t count[SUNDER_FEATURE_HIDDEN + 1] = {0};
+        for (size_t i = 0; i < part->n; i++) count[sunder_report_status(run->report, part->first + i)]++;
+        gis_json_open(out, '{');
+        gis_json_put_string(out, "name", gis_layer_name(part));
+        gis_json_put_size(out, "features", part->n);
+        for (int status = 0; status <= SUNDER_FEATURE_HIDDEN; status++)
+            if (count[status])
+                gis_json_put_size(out, sunder_feature_status_string((sunder_feature_status)status), count[status]);
+        gis_json_close(out, '}');
+    }
+    gis_json_close(out, ']');
+    gis_json_line(out);
+}
+
 void gis_separate_stats(gis_json *out, const gis_separate_run *run)
 {
     const sunder_layer_summary *summary = &run->summary;
     gis_json_open(out, '{');
     gis_json_put_string(out, "command", "separate");
-    gis_json_put_string(out, "layer", gis_source_name(run->input.source));
+    gis_json_put_string(out, "layer", gis_layer_title(&run->input));
     gis_json_put_string(out, "unit", gis_separate_unit(run));
     gis_json_put_size(out, "features", run->input.n);
     gis_json_put_size(out, "vertices", summary->vertices);
@@ -204,6 +225,7 @@ void gis_separate_stats(gis_json *out, const gis_separate_run *run)
     gis_json_put_size(out, "clusters", summary->clusters);
     gis_json_put_size(out, "clusters_optimal", summary->clusters_optimal);
     gis_json_line(out);
+    if (run->input.parts) json_layers(out, run);
     gis_json_key(out, "conflicts");
     gis_json_open(out, '{');
     gis_json_key(out, "before");
@@ -362,8 +384,8 @@ bool gis_separate_print(const void *separated, gis_error *error)
     const gis_separate_run *run = separated;
     (void)error; /* an error of stdio is found when stdout is flushed */
     const sunder_layer_summary *summary = &run->summary;
-    printf("%s: %zu features, %zu vertices, %zu blocks, %zu clusters\n", gis_source_name(run->input.source),
-           run->input.n, summary->vertices, summary->blocks, summary->clusters);
+    printf("%s: %zu features, %zu vertices, %zu blocks, %zu clusters\n", gis_layer_title(&run->input), run->input.n,
+           summary->vertices, summary->blocks, summary->clusters);
     print_counts(summary);
     print_thin(run);
     printf("moved %zu, blocked %zu", summary->moved, summary->blocked);
@@ -381,7 +403,7 @@ bool gis_separate_print(const void *separated, gis_error *error)
     print_hidden(run);
     if (gis_any_conflict(&summary->after) && (run->chosen & GIS_SEPARATE_CONFLICTS))
         printf("the remaining conflicts are listed with their reasons in %s_conflicts\n",
-               gis_resolve_sink(run->options, NULL, gis_source_name(run->input.source)).main_layer);
+               gis_resolve_sink(run->options, NULL, gis_layer_title(&run->input)).main_layer);
     printf("%s; %.3g s\n", run->verified ? "verified on the coordinates as written" : "not verified",
            gis_clock() - run->start);
     return true;

@@ -10,9 +10,8 @@
 bool gis_separate_choose_layers(const char *list, const gis_layer_rules *rules, bool points, unsigned *chosen,
                                 gis_error *error)
 {
-    static const char *const names[GIS_SEPARATE_LAYERS] = {"main",   "displacement", "conflicts",
-                                                           "pushes", "rows",         "symbols",
-                                                           "hidden"};
+    static const char *const names[GIS_SEPARATE_LAYERS] = {"main", "displacement", "conflicts", "pushes",
+                                                           "rows", "symbols",      "hidden"};
     const unsigned apply = GIS_SEPARATE_MAIN | GIS_SEPARATE_DISPLACEMENT | GIS_SEPARATE_CONFLICTS |
                            GIS_SEPARATE_PUSHES | (rules->core.rows ? GIS_SEPARATE_ROWS : 0u) |
                            (points ? GIS_SEPARATE_SYMBOLS : 0u) | (rules->hide ? GIS_SEPARATE_HIDDEN : 0u);
@@ -31,25 +30,60 @@ bool gis_separate_choose_layers(const char *list, const gis_layer_rules *rules, 
     return *chosen || gis_fail_usage(error, "--layers %s: none of these applies to this input", list);
 }
 
+/* If several layers move, names the main layer of each. */
+static bool name_mains(gis_separate_run *run, gis_sink_request *request, gis_error *error)
+{
+    const gis_layer_input *input = &run->input;
+    if (!input->parts) return true;
+    run->more = malloc(input->parts * sizeof *run->more);
+    if (!run->more) return gis_no_memory(error);
+    for (size_t k = 1; k < input->parts; k++)
+        run->more[k - 1] = (gis_sink_main){input->part[k].source, gis_layer_name(&input->part[k])};
+    request->main_layer = gis_layer_name(&input->part[0]);
+    request->more = run->more;
+    request->n_more = input->parts - 1;
+    request->prefix = run->options->sheet_name;
+    return true;
+}
+
+/* Is any of the layers a layer of points? */
+static bool any_points(const gis_layer_input *input)
+{
+    bool any = input->points;
+    for (size_t k = 0; k < input->parts; k++) any = any || input->part[k].points;
+    return any;
+}
+
+/* With --update the sink keeps features for comparison, which packed ones are not. */
+static bool unpack(const gis_layer_input *input, gis_error *error)
+{
+    if (!input->parts) return gis_source_unpack(input->source, error);
+    for (size_t k = 0; k < input->parts; k++)
+        if (!gis_source_unpack(input->part[k].source, error)) return false;
+    return true;
+}
+
 bool gis_separate_open_sink(gis_separate_run *run, gis_error *error)
 {
     size_t n = 0;
-    if (!gis_separate_choose_layers(run->options->text[OPT_LAYERS], &run->request.rules, run->input.points,
-                                    &run->chosen, error))
+    const bool points = any_points(&run->input);
+    if (!gis_separate_choose_layers(run->options->text[OPT_LAYERS], &run->request.rules, points, &run->chosen, error))
         return false;
     if (run->chosen & GIS_SEPARATE_DISPLACEMENT) run->suffixes[n++] = "displacement";
     if (run->chosen & GIS_SEPARATE_CONFLICTS) run->suffixes[n++] = "conflicts";
     if (run->chosen & GIS_SEPARATE_PUSHES) run->suffixes[n++] = "pushes";
     if (run->chosen & GIS_SEPARATE_ROWS) run->suffixes[n++] = "rows";
-    if (run->chosen & GIS_SEPARATE_SYMBOLS) run->suffixes[n++] = "symbols";
+    /* Symbols of layers that move together have the names of these layers. */
+    if (run->chosen & GIS_SEPARATE_SYMBOLS && !run->input.parts) run->suffixes[n++] = "symbols";
     if (run->chosen & GIS_SEPARATE_HIDDEN) run->suffixes[n++] = "hidden";
-    gis_sink_request request = gis_resolve_sink(run->options, run->to.output, gis_source_name(run->input.source));
+    gis_sink_request request = gis_resolve_sink(run->options, run->to.output, gis_layer_title(&run->input));
+    if (!name_mains(run, &request, error)) return false;
     request.suffixes = run->suffixes;
     request.features = (run->chosen & GIS_SEPARATE_MAIN) != 0;
-    request.polygons = run->chosen & (run->input.points ? GIS_SEPARATE_SYMBOLS : GIS_SEPARATE_MAIN);
+    request.polygons = run->chosen & (points ? GIS_SEPARATE_SYMBOLS : GIS_SEPARATE_MAIN);
     request.scratch = run->scratch;
     if (!gis_sink_open(&request, run->input.source, &run->sink, error)) return false;
-    if (gis_sink_remembers(run->sink) && run->source_held && !gis_source_unpack(run->input.source, error)) return false;
+    if (gis_sink_remembers(run->sink) && run->source_held && !unpack(&run->input, error)) return false;
     if (!gis_sink_takes_more(run->sink)) run->chosen = GIS_SEPARATE_MAIN;
     if (!run->to.proof) gis_layer_forget_demands(&run->input);
     run->request.rules.core.keep_pushes = (run->chosen & GIS_SEPARATE_PUSHES) != 0;

@@ -29,6 +29,7 @@ typedef struct gis_separate_run {
     gis_layer_input input;
     const char *suffixes[GIS_SEPARATE_LAYERS]; /* the suffixes of the layers besides the main one, NULL-terminated; the
                                                 * sink borrows the array */
+    gis_sink_main *more; /* the main layers besides the first; the sink borrows the array */
     gis_sink *sink;
     sunder_report *report;
     sunder_layer_summary summary;

@@ -5,6 +5,7 @@
 
 void gis_feature_name(const gis_layer_input *input, size_t i, char *text, size_t size)
 {
+    input = gis_layer_own(input, &i);
     GIntBig fid = gis_source_fid(input->source, i);
     OGRFeatureH feature = input->id_field >= 0 ? gis_source_attributes(input->source, i) : NULL;
     bool has_id = feature && OGR_F_IsFieldSetAndNotNull(feature, input->id_field);

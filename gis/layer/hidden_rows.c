@@ -8,17 +8,27 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* The geometry type of the features; layers of different types may move together. */
+static OGRwkbGeometryType type_of(const gis_layer_input *input)
+{
+    const OGRwkbGeometryType type = OGR_L_GetGeomType(gis_source_layer(input->source));
+    for (size_t k = 1; k < input->parts; k++)
+        if (OGR_L_GetGeomType(gis_source_layer(input->part[k].source)) != type) return wkbUnknown;
+    return type;
+}
+
 bool gis_hidden_begin(gis_sink *sink, const gis_layer_input *input, OGRFieldType id, gis_sink_layer **layer,
                       gis_error *error)
 {
     const gis_field fields[] = {{"fid", OFTInteger64, 0},    {"id", id, 0},
                                 {"class", OFTInteger64, 0},  {"weight", OFTReal, 0},
-                                {"forced", OFTInteger64, 0}, {"because", OFTString, 0}};
+                                {"forced", OFTInteger64, 0}, {"because", OFTString, 0},
+                                {"layer_a", OFTString, 0}};
     const gis_sink_layer_request request = {.suffix = "hidden",
-                                            .type = OGR_L_GetGeomType(gis_source_layer(input->source)),
+                                            .type = type_of(input),
                                             .crs = gis_source_crs(input->source),
                                             .fields = fields,
-                                            .n_fields = sizeof fields / sizeof *fields,
+                                            .n_fields = sizeof fields / sizeof *fields - (input->parts ? 0 : 1),
                                             .style = GIS_STYLE_HIDDEN};
     return gis_sink_add(sink, &request, layer, error);
 }
@@ -94,6 +104,7 @@ bool gis_hidden_put(gis_sink_layer *layer, const gis_hidden_row *row, const gis_
         {GIS_REAL, {.real = (double)row->cost.weight / GIS_HIDING_UNIT}},
         {GIS_INTEGER, {.integer = row->forced}},
         none,
+        gis_things_layer(things, row->feature),
     };
     bool ok = gis_go_on(error) && things->id(things->of, row->feature, &scratch.id[0], &values[1], error) &&
               put_because(things, row, &scratch, &values[5], error);

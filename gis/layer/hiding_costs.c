@@ -26,6 +26,7 @@ static double class_value(const gis_layer_input *input, size_t i)
 
 sunder_hiding_cost gis_layer_hiding_cost(const gis_layer_input *input, size_t i)
 {
+    input = gis_layer_own(input, &i);
     const sunder_shape *shape = gis_layer_original(input, i);
     const double area = shape ? sunder_shape_area(shape) : 0;
     const double value = input->hierarchy_field < 0 ? 1 : class_value(input, i);
@@ -62,8 +63,11 @@ bool gis_layer_set_hiding(gis_layer_input *input, gis_error *error)
     sunder_hiding_cost *cost = malloc((input->n + 1) * sizeof *cost);
     bool ok = cost || gis_no_memory(error);
     for (size_t i = 0; i < input->n && ok; i++) {
-        ok = gis_layer_check_class(input, i, error);
-        cost[i] = ok && !input->feature[i].ignored ? gis_layer_hiding_cost(input, i) : (sunder_hiding_cost){0, 1};
+        size_t k = i;
+        const gis_layer_input *own = gis_layer_own(input, &k);
+        ok = gis_layer_check_class(own, k, error);
+        const bool may = ok && own->request->rules.hide && !input->feature[i].ignored;
+        cost[i] = may ? gis_layer_hiding_cost(own, k) : (sunder_hiding_cost){0, 1};
     }
     if (ok && sunder_layer_set_hiding(input->layer, cost, &why) != SUNDER_OK)
         ok = gis_core_failed(error, "--hide", &why);

@@ -97,13 +97,17 @@ bool gis_layer_point(const gis_layer_input *input, size_t i, double xy[2], bool 
 static bool set_sides(gis_layer_input *input, gis_error *error)
 {
     sunder_error why;
-    if (!input->points || input->barriers.n == 0) return true;
+    bool any_points = input->points;
+    for (size_t k = 0; k < input->parts; k++) any_points = any_points || input->part[k].points;
+    if (!any_points || input->barriers.n == 0) return true;
     double *xy = malloc((2 * input->n + 1) * sizeof *xy);
     bool ok = xy != NULL || gis_no_memory(error);
     for (size_t i = 0; ok && i < input->n; i++) {
+        size_t k = i;
+        const gis_layer_input *own = gis_layer_own(input, &k);
         bool any = false;
         xy[2 * i] = xy[2 * i + 1] = NAN;
-        ok = !input->shape[i] || gis_layer_point(input, i, xy + 2 * i, &any, error);
+        ok = !own->points || !input->shape[i] || gis_layer_point(own, k, xy + 2 * i, &any, error);
     }
     if (ok && sunder_layer_set_side_anchors(input->layer, xy, &why) != SUNDER_OK)
         ok = gis_core_failed(error, gis_source_name(input->source), &why);
@@ -133,8 +137,7 @@ static bool make_layer(gis_layer_input *input, gis_error *error)
         return gis_core_failed(error, gis_source_name(input->source), &why);
     if (sunder_layer_set_barriers(input->layer, input->barriers.barrier, input->barriers.n, &why) != SUNDER_OK)
         return gis_core_failed(error, "--barrier", &why);
-    if (!gis_class_gaps_read(input, error) || !gis_class_gaps_set(input, NULL, input->n, input->layer, error))
-        return false;
+    if (!gis_class_gaps_set(input, NULL, input->n, input->layer, error)) return false;
     if (sunder_layer_set_rows(input->layer, input->row, &why) != SUNDER_OK)
         return gis_core_failed(error, "--rows", &why);
     sunder_layer_set_crossed(input->layer, input->request->rules.crossed);
@@ -178,7 +181,8 @@ static bool box_of_ways(const gis_layer_input *input, size_t i, double box[4])
         sunder_shape_box(input->given[i], given);
         for (int k = 0; k < 4; k++) box[k] = k < 2 ? fmin(box[k], given[k]) : fmax(box[k], given[k]);
     }
-    if (!input->points || !gis_layer_point(input, i, at, &any, &none) || !any) return true;
+    const gis_layer_input *own = gis_layer_own(input, &i);
+    if (!own->points || !gis_layer_point(own, i, at, &any, &none) || !any) return true;
     for (int k = 0; k < 4; k++) box[k] = k < 2 ? fmin(box[k], at[k]) : fmax(box[k], at[k - 2]);
     return true;
 }
@@ -188,7 +192,8 @@ static bool box_of_ways(const gis_layer_input *input, size_t i, double box[4])
 static double side_reach(const gis_layer_input *input, size_t i)
 {
     double box[4];
-    return !input->points && feature_box(input, i, box) ? sunder_side_reach(box) : 0;
+    size_t k = i;
+    return !gis_layer_own(input, &k)->points && feature_box(input, i, box) ? sunder_side_reach(box) : 0;
 }
 
 /* The boxes near which barriers matter: that of each feature or, for a check with --before, one box around all old and
@@ -278,7 +283,7 @@ static void clear_previous(gis_previous *previous)
 
 void gis_layer_drop_features(gis_layer_input *input)
 {
-    for (size_t i = 0; input->shape && i < input->n; i++) sunder_shape_free(input->shape[i]);
+    for (size_t i = 0; input->shape && i < input->n && !input->parts; i++) sunder_shape_free(input->shape[i]);
     for (size_t i = 0; input->given && i < input->n; i++) sunder_shape_free(input->given[i]);
     free(input->shape);
     free(input->given);
@@ -314,10 +319,16 @@ void gis_layer_warn_of_others(const gis_layer_input *input, bool any_points)
 
 void gis_layer_default_demands(gis_layer_input *input)
 {
+    const gis_layer_rules *rules = &input->request->rules;
     for (size_t i = 0; i < input->n; i++) {
         const bool there = input->shape[i] && !sunder_shape_is_empty(input->shape[i]);
-        input->feature[i] =
-            (sunder_feature){.weight = 1, .max_shift = input->max_shift, .block = -1, .ignored = !there};
+        input->feature[i] = (sunder_feature){.weight = 1,
+                                             .max_shift = input->max_shift,
+                                             .block = -1,
+                                             .ignored = !there,
+                                             .joins_none = rules->joins_none,
+                                             .may_jump = rules->may_jump,
+                                             .in_no_row = rules->in_no_row};
     }
 }
 
@@ -330,7 +341,7 @@ static bool lend_shapes(gis_layer_input *input, gis_error *error)
     return gis_source_borrow(input->source, input->read ? input->read : input->shape, rules->core.threads, error);
 }
 
-bool gis_layer_input_read(const gis_layer_input_request *request, gis_layer_input *out, gis_error *error)
+bool gis_layer_read_features(const gis_layer_input_request *request, gis_layer_input *out, gis_error *error)
 {
     if (!gis_layer_begin(request, true, out, error) || !gis_layer_make_room(out, true, error)) return false;
     if (!gis_layer_lengths(out, error) || !gis_layer_shapes(out, error) || !lend_shapes(out, error)) return false;
@@ -339,13 +350,19 @@ bool gis_layer_input_read(const gis_layer_input_request *request, gis_layer_inpu
     gis_layer_warn_of_others(out, gis_source_content_count(out->source, GIS_POINTS) > 0);
     return gis_layer_marks(out, error) && gis_layer_mark_hidden(out, error) && gis_layer_blocks(out, error) &&
            gis_layer_weights(out, error) && gis_layer_limits(out, error) && gis_layer_rows(out, error) &&
-           enlarge(out, error) && read_barriers(out, error) && make_layer(out, error);
+           gis_class_gaps_read(out, error);
+}
+
+bool gis_layer_complete(gis_layer_input *input, gis_error *error)
+{
+    return enlarge(input, error) && read_barriers(input, error) && make_layer(input, error);
 }
 
 void gis_layer_forget_demands(gis_layer_input *input)
 {
     free(input->feature);
     input->feature = NULL;
+    for (size_t k = 0; k < input->parts; k++) gis_layer_forget_demands(&input->part[k]);
 }
 
 void gis_layer_input_clear(gis_layer_input *input)
@@ -356,7 +373,9 @@ void gis_layer_input_clear(gis_layer_input *input)
     gis_layer_shaping_free(input->shaping);
     gis_class_gaps_clear(&input->class_tables);
     gis_barriers_clear(&input->barriers);
-    gis_source_close(input->source);
+    if (!input->parts) gis_source_close(input->source);
+    for (size_t k = 0; k < input->parts; k++) gis_layer_input_clear(&input->part[k]);
+    free(input->part);
     *input = (gis_layer_input){0};
 }
 
@@ -365,6 +384,10 @@ void gis_layer_input_request_clear(gis_layer_input_request *request)
     for (size_t k = 0; k < request->barriers; k++) gis_barrier_request_clear(&request->barrier[k]);
     free(request->barrier);
     gis_links_request_clear(&request->links);
+    for (size_t k = 0; k < request->more; k++) gis_layer_input_request_clear(&request->with[k]);
+    free(request->with);
+    request->with = NULL;
+    request->more = 0;
     request->barrier = NULL;
     request->barriers = 0;
 }

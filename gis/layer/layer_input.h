@@ -36,6 +36,12 @@ typedef struct gis_layer_input_request {
     bool moves;         /* features will be moved, so barriers within reach of their limits are read */
     bool drawn;         /* everything will be drawn, features that conflict with nothing as well */
     gis_layer_rules rules;
+    const char *name;  /* in the output, if several layers move together */
+    const char *title; /* of all of them */
+    /* [more] the other layers that move together with this one, each with rules of its own for its features; what
+     * concerns the whole run is taken from this one. Owned. */
+    struct gis_layer_input_request *with;
+    size_t more;
 } gis_layer_input_request;
 
 void gis_layer_input_request_clear(gis_layer_input_request *request);
@@ -81,7 +87,11 @@ typedef struct gis_layer_input {
     sunder_layer *layer;
     gis_layer_shaping *shaping;
     uint32_t *gap_class; /* [n] the class of each feature for gaps; NULL: the gap is the same for all */
-    int64_t *row; /* [n] the row of each feature by --rows FIELD, -1 for none; NULL: none are given */
+    /* [parts] the layers that move together, whose features these are, one layer after the other; NULL: the features of
+     * one source. With them `source` and `request` are those of the first, and fields and previous are not set. */
+    struct gis_layer_input *part;
+    size_t parts, first; /* first: of a part: the number of its first feature among all */
+    int64_t *row;        /* [n] the row of each feature by --rows FIELD, -1 for none; NULL: none are given */
     gis_previous previous;
     gis_class_tables class_tables;
     int class_field;     /* index of the field with the classes for gaps; -1: not given */
@@ -92,8 +102,16 @@ typedef struct gis_layer_input {
     size_t other;         /* number of features with another kind of geometry */
 } gis_layer_input;
 
-/* Reads everything. Call gis_layer_input_clear() also after a failure. */
+/* Reads everything; layers that move together are joined to one (joined_layers.c). Call gis_layer_input_clear() also
+ * after a failure. */
 bool gis_layer_input_read(const gis_layer_input_request *request, gis_layer_input *out, gis_error *error);
+/* Returns the layer that feature *i belongs to, and sets *i to its number in it. */
+const gis_layer_input *gis_layer_own(const gis_layer_input *input, size_t *i);
+/* The name of the layer in the output, if several move together; else that of its source. */
+const char *gis_layer_name(const gis_layer_input *input);
+/* What the layer is called in messages and figures: the name of its source, or the title of layers that move
+ * together. */
+const char *gis_layer_title(const gis_layer_input *input);
 /* Reads the source and its shapes alone, arcs as chords, for a command without conflicts. */
 bool gis_layer_shapes_read(const gis_layer_input_request *request, gis_layer_input *out, gis_error *error);
 /* The shape of feature i as it was read. */
@@ -148,6 +166,9 @@ sunder_hiding_cost gis_layer_hiding_cost(const gis_layer_input *input, size_t i)
 /* Has what is hidden in a result ignored, except for features of class 0. */
 bool gis_layer_mark_hidden(gis_layer_input *input, gis_error *error);
 bool gis_layer_set_hiding(gis_layer_input *input, gis_error *error); /* hiding_costs.c: once there is a layer */
+/* The two steps of reading: the features of one source with its rules; what needs all features that move. */
+bool gis_layer_read_features(const gis_layer_input_request *request, gis_layer_input *out, gis_error *error);
+bool gis_layer_complete(gis_layer_input *input, gis_error *error);
 /* Once the layer is read: the places that features prefer (preferred_moves.c). The former moves among them are those of
  * the result of an earlier run, if there is one (previous.c). */
 bool gis_layer_set_preferred(gis_layer_input *input, gis_error *error);

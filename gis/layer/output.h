@@ -18,7 +18,7 @@ typedef bool gis_move_of(void *user, size_t feature, double move[2], gis_error *
  * symbol has several polygons (symbols_anew.c). */
 bool gis_write_symbols_anew(gis_sink *sink, const gis_layer_input *input, bool multi, bool batches, gis_move_of *move,
                             void *user, gis_error *error);
-/* Writes LAYER_symbols: the symbols of points at their new places. */
+/* Writes LAYER_symbols: the symbols of points at their new places; several layers if several layers of points move. */
 bool gis_write_symbols(gis_sink *sink, const gis_layer_input *input, const sunder_report *report, gis_error *error);
 
 /* Returns an array [n], which the caller frees: the clause that explains why a feature is hidden; NULL where there is
@@ -37,7 +37,8 @@ bool gis_hidden_begin(gis_sink *sink, const gis_layer_input *input, OGRFieldType
 bool gis_hidden_put(gis_sink_layer *layer, const gis_hidden_row *row, const gis_things *things, OGRGeometryH geometry,
                     gis_error *error);
 
-/* A feature's FID as a value; null if it has none. */
+/* The FID of a feature, and the same as a value; null if it has none. */
+GIntBig gis_layer_fid(const gis_layer_input *input, size_t feature);
 gis_value gis_fid_value(const gis_layer_input *input, size_t feature);
 /* The barrier with this number in the core's report; NULL if the number is that of a feature, or SIZE_MAX. */
 const gis_barrier_feature *gis_barrier_of(const gis_layer_input *input, size_t thing);

@@ -47,20 +47,37 @@ static bool take_links(const gis_layer_input *input, double *move, gis_error *er
     return ok;
 }
 
-bool gis_layer_set_preferred(gis_layer_input *input, gis_error *error)
+static bool is_preferring(const gis_layer_input *input)
+{
+    return input->prefer_field[0] >= 0 || input->request->previous || input->request->links.dataset;
+}
+
+/* Sets move[2 n] to the moves that the features of one source prefer. */
+static bool find_preferred(gis_layer_input *input, double *move, gis_error *error)
 {
     const gis_previous *previous = &input->previous;
-    sunder_error why;
-    if (input->prefer_field[0] < 0 && !input->request->previous && !input->request->links.dataset) return true;
-    if (!gis_previous_read(input, error)) return false;
-    double *move = calloc(2 * input->n + 1, sizeof *move);
-    bool ok = (move || gis_no_memory(error)) && take_links(input, move, error);
+    if (!is_preferring(input)) return true;
+    bool ok = gis_previous_read(input, error) && take_links(input, move, error);
     for (size_t i = 0; i < input->n && ok; i++) {
         if (input->feature[i].ignored) continue;
         if (previous->move && previous->of[i] != SIZE_MAX && !previous->relaxed[i])
             memcpy(move + 2 * i, previous->move + 2 * i, 2 * sizeof *move);
         if (input->prefer_field[0] >= 0) ok = take_fields(input, i, move + 2 * i, error);
     }
+    return ok;
+}
+
+bool gis_layer_set_preferred(gis_layer_input *input, gis_error *error)
+{
+    sunder_error why;
+    bool any = !input->parts && is_preferring(input);
+    for (size_t k = 0; k < input->parts; k++) any = any || is_preferring(&input->part[k]);
+    if (!any) return true;
+    double *move = calloc(2 * input->n + 1, sizeof *move);
+    bool ok = move || gis_no_memory(error);
+    if (ok && !input->parts) ok = find_preferred(input, move, error);
+    for (size_t k = 0; k < input->parts && ok; k++)
+        ok = find_preferred(&input->part[k], move + 2 * input->part[k].first, error);
     if (ok && sunder_layer_set_preferred(input->layer, move, &why) != SUNDER_OK)
         ok = gis_core_failed(error, "preferred places", &why);
     free(move);

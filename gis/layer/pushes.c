@@ -18,21 +18,24 @@ void gis_things_push(const gis_things *things, const sunder_push *push, gis_valu
         {GIS_REAL, {.real = push->force}},
         {GIS_REAL, {.real = push->n[0]}},
         {GIS_REAL, {.real = push->n[1]}},
+        gis_things_layer(things, push->a),
+        gis_things_layer(things, push->b),
     };
     memcpy(values, row, sizeof row);
 }
 
-bool gis_pushes_begin(gis_sink *sink, OGRSpatialReferenceH crs, gis_sink_layer **layer, gis_error *error)
+bool gis_pushes_begin(gis_sink *sink, OGRSpatialReferenceH crs, bool layers, gis_sink_layer **layer, gis_error *error)
 {
     static const gis_field fields[N_PUSH_COLUMNS] = {{"fid_a", OFTInteger64, 0}, {"fid_b", OFTInteger64, 0},
                                                      {"barrier", OFTString, 0},  {"barr_fid", OFTInteger64, 0},
                                                      {"force", OFTReal, 0},      {"nx", OFTReal, 0},
-                                                     {"ny", OFTReal, 0}};
+                                                     {"ny", OFTReal, 0},         {"layer_a", OFTString, 0},
+                                                     {"layer_b", OFTString, 0}};
     const gis_sink_layer_request request = {.suffix = "pushes",
                                             .type = wkbLineString,
                                             .crs = crs,
                                             .fields = fields,
-                                            .n_fields = N_PUSH_COLUMNS,
+                                            .n_fields = layers ? N_PUSH_COLUMNS : N_PUSH_COLUMNS - 2,
                                             .style = GIS_STYLE_PUSHES};
     return gis_sink_add(sink, &request, layer, error);
 }

@@ -10,11 +10,16 @@
 
 static gis_value block_value(const gis_result *r, bool has_null, size_t feature)
 {
-    const gis_source *source = r->input->source;
+    const bool unique = !r->input->parts && gis_source_fids_unique(r->input->source);
     int64_t first = sunder_report_block(r->of, feature);
     if (first < 0 && !has_null) first = (int64_t)feature;
-    return gis_block_as_value(gis_source_fids_unique(source), first,
-                              first < 0 ? OGRNullFID : gis_source_fid(source, (size_t)first));
+    return gis_block_as_value(unique, first, first < 0 ? OGRNullFID : gis_layer_fid(r->input, (size_t)first));
+}
+
+static OGRGeometryH geometry_of(const gis_layer_input *input, size_t i)
+{
+    const gis_layer_input *own = gis_layer_own(input, &i);
+    return gis_source_geometry(own->source, i);
 }
 
 /* Fills in the shape that the feature has instead of its own, if it does. */
@@ -24,7 +29,7 @@ static void fill_level(const gis_result *r, size_t i, gis_feature_row *row)
     const sunder_shape *larger = input->given && input->given[i] ? input->shape[i] : NULL;
     const size_t level = sunder_report_level(r->of, i);
     if ((!level && !larger) || row->status == SUNDER_FEATURE_HIDDEN) return;
-    row->multi = wkbFlatten(OGR_G_GetGeometryType(gis_source_geometry(input->source, i))) == wkbMultiPolygon;
+    row->multi = wkbFlatten(OGR_G_GetGeometryType(geometry_of(input, i))) == wkbMultiPolygon;
     row->other = larger;
     row->lost = larger ? 1 - sunder_shape_area(larger) / sunder_shape_area(input->given[i]) : 0;
     if (!level) return;
@@ -62,6 +67,8 @@ static bool visit_arrow(const gis_result *r, bool has_null, size_t i, const doub
 {
     gis_arrow_row row = {
         .fid = gis_fid_value(r->input, i), .block = block_value(r, has_null, i), .move = {move[0], move[1]}};
+    const gis_things things = gis_things_of(r->input);
+    row.layer = gis_things_layer(&things, i);
     gis_conflict_texts scratch = {0};
     const bool done = gis_arrow_start(r->input, i, row.from, error) &&
                       gis_id_value(r->input, i, &scratch.id[0], &row.id, error) && visit(user, &row, error);
@@ -121,7 +128,8 @@ static bool visit_row(const gis_result *r, const sunder_row *row, double *xy, gi
 {
     GIntBig least = OGRNullFID;
     for (size_t k = 0; k < row->features; k++) {
-        const GIntBig fid = gis_source_fid(r->input->source, row->feature[k]);
+        const GIntBig fid =
+            r->input->parts ? (GIntBig)row->feature[k] : gis_source_fid(r->input->source, row->feature[k]);
         if (k == 0 || fid < least) least = fid;
         anchor_now(r, row->feature[k], xy + 2 * k);
     }
@@ -152,7 +160,7 @@ static bool visit_hidden(const gis_result *r, gis_hidden_visit *visit, void *use
     size_t n;
     bool ok = gis_hidden_list(r->input, r->of, &list, &n, error);
     for (size_t k = 0; k < n && ok; k++)
-        ok = visit(user, &list[k], &things, gis_source_geometry(r->input->source, list[k].feature), error);
+        ok = visit(user, &list[k], &things, geometry_of(r->input, list[k].feature), error);
     free(list);
     return ok;
 }
@@ -182,7 +190,7 @@ static bool write_proof(const gis_result *r, const sunder_layer_summary *summary
     return gis_proof_write(r->input, r->of, to, error);
 }
 
-static GIntBig longest_fid(const gis_result *r, size_t feature) { return gis_source_fid(r->input->source, feature); }
+static GIntBig longest_fid(const gis_result *r, size_t feature) { return gis_layer_fid(r->input, feature); }
 
 static OGRFieldType id_type(const gis_result *r) { return gis_id_type(r->input); }
 

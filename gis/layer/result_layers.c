@@ -6,15 +6,32 @@
 
 #include "base/interrupt.h"
 
+/* Several layers that move together are main layers of the sink, each of which is begun before its first feature. */
 typedef struct feature_writer {
+    const gis_layer_input *input;
+    gis_sink *sink;
     gis_sink_layer *layer;
+    size_t begun; /* the number of main layers that are begun */
     bool drop_hidden;
 } feature_writer;
 
+/* Begins main layers up to number `main`. */
+static bool begin_mains(feature_writer *w, size_t main, gis_error *error)
+{
+    const gis_layer_rules *rules = &w->input->request->rules;
+    bool ok = true;
+    while (ok && w->begun <= main)
+        ok = gis_main_begin(w->sink, w->begun++, rules->hide, gis_levels_asked(rules), &w->layer, error);
+    return ok;
+}
+
 static bool write_feature(void *user, size_t i, const gis_feature_row *row, gis_error *error)
 {
-    const feature_writer *w = user;
-    return (w->drop_hidden && row->status == SUNDER_FEATURE_HIDDEN) || gis_main_row(w->layer, i, row, error);
+    feature_writer *w = user;
+    const gis_layer_input *own = gis_layer_own(w->input, &i);
+    if (w->drop_hidden && row->status == SUNDER_FEATURE_HIDDEN) return true;
+    return (!w->input->parts || begin_mains(w, (size_t)(own - w->input->part), error)) &&
+           gis_main_row(w->layer, i, row, error);
 }
 
 static bool write_arrow(void *layer, const gis_arrow_row *row, gis_error *error)
@@ -45,17 +62,17 @@ static bool write_push(void *layer, const sunder_push *push, const gis_things *t
 
 static bool write_main(const gis_result *r, bool wanted, gis_sink *sink, gis_error *error)
 {
-    const gis_layer_rules *rules = &r->input->request->rules;
-    feature_writer w = {NULL, rules->drop_hidden};
+    feature_writer w = {.input = r->input, .sink = sink, .drop_hidden = r->input->request->rules.drop_hidden};
     if (!wanted) return r->kind->features(r, true, NULL, NULL, error);
-    return gis_main_begin(sink, rules->hide, gis_levels_asked(rules), &w.layer, error) &&
-           r->kind->features(r, gis_sink_has_null(w.layer), write_feature, &w, error);
+    return begin_mains(&w, 0, error) && r->kind->features(r, gis_sink_has_null(w.layer), write_feature, &w, error) &&
+           (!r->input->parts || begin_mains(&w, r->input->parts - 1, error));
 }
 
 static bool write_displacement(const gis_result *r, gis_sink *sink, gis_error *error)
 {
     gis_sink_layer *layer;
-    return gis_displacement_begin(sink, r->kind->id_type(r), gis_source_crs(r->input->source), &layer, error) &&
+    return gis_displacement_begin(sink, r->kind->id_type(r), gis_source_crs(r->input->source), r->input->parts > 0,
+                                  &layer, error) &&
            r->kind->arrows(r, gis_sink_has_null(layer), write_arrow, layer, error);
 }
 
@@ -63,9 +80,10 @@ static bool write_conflicts(const gis_result *r, gis_sink *sink, gis_error *erro
 {
     conflict_writer w = {0};
     const bool rows = gis_layer_core_options(r->input).rows != SUNDER_ROWS_NONE;
-    const bool done = gis_conflicts_begin(sink, "conflicts", r->kind->id_type(r), gis_source_crs(r->input->source),
-                                          rows, r->input->request->rules.has_least_gap, &w.layer, error) &&
-                      r->kind->conflicts(r, write_conflict, &w, error);
+    const bool done =
+        gis_conflicts_begin(sink, "conflicts", r->kind->id_type(r), gis_source_crs(r->input->source), rows,
+                            r->input->parts > 0, r->input->request->rules.has_least_gap, &w.layer, error) &&
+        r->kind->conflicts(r, write_conflict, &w, error);
     gis_conflict_texts_clear(&w.scratch);
     return done;
 }
@@ -73,7 +91,7 @@ static bool write_conflicts(const gis_result *r, gis_sink *sink, gis_error *erro
 static bool write_pushes(const gis_result *r, gis_sink *sink, gis_error *error)
 {
     gis_sink_layer *layer;
-    return gis_pushes_begin(sink, gis_source_crs(r->input->source), &layer, error) &&
+    return gis_pushes_begin(sink, gis_source_crs(r->input->source), r->input->parts > 0, &layer, error) &&
            r->kind->pushes(r, write_push, layer, error);
 }
 

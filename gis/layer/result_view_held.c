@@ -99,7 +99,7 @@ static bool barrier_geometry(void *of, uint64_t place, sunder_obstacle *out, gis
 
 static bool feature_name(void *of, size_t feature, uint64_t place, GIntBig *fid, const char **id, gis_error *error)
 {
-    const gis_layer_input *input = ((const gis_result *)of)->input;
+    const gis_layer_input *input = gis_layer_own(((const gis_result *)of)->input, &feature);
     (void)place, (void)error;
     *fid = gis_source_fid(input->source, feature);
     *id = NULL;

@@ -17,7 +17,7 @@ gis_value gis_block_as_value(bool fids_unique, int64_t first, GIntBig fid)
     return fids_unique ? gis_fid_as_value(fid) : (gis_value){GIS_INTEGER, {.integer = first}};
 }
 
-bool gis_main_begin(gis_sink *sink, bool hide, bool smaller, gis_sink_layer **layer, gis_error *error)
+bool gis_main_begin(gis_sink *sink, size_t main, bool hide, bool smaller, gis_sink_layer **layer, gis_error *error)
 {
     static const gis_field fields[] = {
         {"sunder_dx", OFTReal, 0},     {"sunder_dy", OFTReal, 0},       {"sunder_len", OFTReal, 0},
@@ -25,6 +25,7 @@ bool gis_main_begin(gis_sink *sink, bool hide, bool smaller, gis_sink_layer **la
         {"sunder_lvl", OFTInteger, 0}, {"sunder_cut", OFTReal, 0},      {"sunder_siz", OFTReal, 0}};
     const size_t columns = sizeof fields / sizeof *fields;
     const gis_sink_layer_request request = {.suffix = "",
+                                            .main = main,
                                             .like_source = true,
                                             .as_source = true,
                                             .fields = fields,
@@ -68,16 +69,17 @@ bool gis_main_row(gis_sink_layer *layer, size_t i, const gis_feature_row *row, g
     return geometry && gis_sink_write_shaped(layer, i, geometry, values, error);
 }
 
-bool gis_displacement_begin(gis_sink *sink, OGRFieldType id, OGRSpatialReferenceH crs, gis_sink_layer **layer,
-                            gis_error *error)
+bool gis_displacement_begin(gis_sink *sink, OGRFieldType id, OGRSpatialReferenceH crs, bool layers,
+                            gis_sink_layer **layer, gis_error *error)
 {
     const gis_field fields[] = {{"fid", OFTInteger64, 0}, {"id", id, 0},       {"dx", OFTReal, 0},
-                                {"dy", OFTReal, 0},       {"len", OFTReal, 0}, {"block", OFTInteger64, 0}};
+                                {"dy", OFTReal, 0},       {"len", OFTReal, 0}, {"block", OFTInteger64, 0},
+                                {"layer_a", OFTString, 0}};
     const gis_sink_layer_request request = {.suffix = "displacement",
                                             .type = wkbLineString,
                                             .crs = crs,
                                             .fields = fields,
-                                            .n_fields = sizeof fields / sizeof *fields,
+                                            .n_fields = sizeof fields / sizeof *fields - (layers ? 0 : 1),
                                             .style = GIS_STYLE_DISPLACEMENT};
     return gis_sink_add(sink, &request, layer, error);
 }
@@ -89,7 +91,8 @@ bool gis_displacement_row(gis_sink_layer *layer, const gis_arrow_row *row, gis_e
                                 {GIS_REAL, {.real = row->move[0]}},
                                 {GIS_REAL, {.real = row->move[1]}},
                                 {GIS_REAL, {.real = hypot(row->move[0], row->move[1])}},
-                                row->block};
+                                row->block,
+                                row->layer};
     const double to[2] = {row->from[0] + row->move[0], row->from[1] + row->move[1]};
     return gis_line_row(layer, values, row->from, to, error);
 }
@@ -100,9 +103,11 @@ bool gis_line_row(gis_sink_layer *layer, const gis_value *values, const double f
     return gis_sink_write_line(layer, from, to, values, error);
 }
 
-bool gis_symbols_begin(gis_sink *sink, bool multi, OGRSpatialReferenceH crs, gis_sink_layer **layer, gis_error *error)
+bool gis_symbols_begin(gis_sink *sink, size_t main, bool multi, OGRSpatialReferenceH crs, gis_sink_layer **layer,
+                       gis_error *error)
 {
     const gis_sink_layer_request request = {.suffix = "symbols",
+                                            .main = main,
                                             .like_source = true,
                                             .type = multi ? wkbMultiPolygon : wkbPolygon,
                                             .crs = crs,

@@ -27,8 +27,9 @@ typedef struct gis_feature_row {
 } gis_feature_row;
 
 /* hide: the layer has the column sunder_inv; smaller: it has sunder_lvl, sunder_cut and sunder_siz. */
-bool gis_main_begin(gis_sink *sink, bool hide, bool smaller, gis_sink_layer **layer, gis_error *error);
-/* Writes the row of feature i of the sink's source, or of its current batch. */
+/* main: the number of the main layer. */
+bool gis_main_begin(gis_sink *sink, size_t main, bool hide, bool smaller, gis_sink_layer **layer, gis_error *error);
+/* Writes the row of feature i of the layer's source, or of its current batch. */
 bool gis_main_row(gis_sink_layer *layer, size_t i, const gis_feature_row *row, gis_error *error);
 
 /* ---- LAYER_displacement ------------------------------------------------------------------------------------------ */
@@ -37,11 +38,12 @@ bool gis_main_row(gis_sink_layer *layer, size_t i, const gis_feature_row *row, g
 typedef struct gis_arrow_row {
     gis_value fid, id, block;
     double from[2], move[2];
+    gis_value layer; /* the name of its layer, if several layers move together */
 } gis_arrow_row;
 
-/* id: the type of the column "id". */
-bool gis_displacement_begin(gis_sink *sink, OGRFieldType id, OGRSpatialReferenceH crs, gis_sink_layer **layer,
-                            gis_error *error);
+/* id: the type of the column "id". layers: it has the column layer_a. */
+bool gis_displacement_begin(gis_sink *sink, OGRFieldType id, OGRSpatialReferenceH crs, bool layers,
+                            gis_sink_layer **layer, gis_error *error);
 bool gis_displacement_row(gis_sink_layer *layer, const gis_arrow_row *row, gis_error *error);
 
 /* ---- LAYER_conflicts, LAYER_pushes ------------------------------------------------------------------------------- */
@@ -55,6 +57,8 @@ typedef struct gis_things {
     bool (*id)(const void *of, size_t feature, char **copy, gis_value *value, gis_error *error);
     /* The FID of a barrier, and the name of its layer, which is valid as long as `of`. */
     GIntBig (*barrier)(const void *of, size_t thing, const char **layer);
+    /* The name of a feature's layer, if several layers move together; else NULL. */
+    const char *(*layer)(const void *of, size_t feature);
 } gis_things;
 
 /* The columns of LAYER_conflicts. Texts in the values of a conflict are valid until the next call with the same
@@ -77,7 +81,9 @@ enum {
     COLUMN_NEED_SHIFT,
     COLUMN_NEED_GAP,
     COLUMN_NEED_GONE,
-    COLUMN_BY_ROW, /* only in the result of a run with rows */
+    COLUMN_BY_ROW,  /* only in the result of a run with rows */
+    COLUMN_LAYER_A, /* only if several layers move together */
+    COLUMN_LAYER_B, /* likewise */
     N_CONFLICT_COLUMNS
 };
 
@@ -95,15 +101,20 @@ void gis_conflict_texts_clear(gis_conflict_texts *scratch);
 bool gis_things_value(const gis_things *things, const size_t *thing, size_t n, char **copy, gis_value *value,
                       gis_error *error);
 
-/* The columns of LAYER_pushes; the texts are borrowed from the barriers. */
-enum { N_PUSH_COLUMNS = 7 };
+/* The name of a feature's layer, if several layers move together; null for what is none. */
+gis_value gis_things_layer(const gis_things *things, size_t thing);
+
+/* The columns of LAYER_pushes, the last two only if several layers move together; the texts are borrowed from the
+ * barriers and layers. */
+enum { N_PUSH_COLUMNS = 9 };
 void gis_things_push(const gis_things *things, const sunder_push *push, gis_value values[N_PUSH_COLUMNS]);
 
-/* Adds the layer of conflicts: MAIN_suffix, or MAIN if suffix is "". by_row: it has the column by_row. tight: it may
- * list tight pairs. */
+/* Adds the layer of conflicts: MAIN_suffix, or MAIN if suffix is "". by_row: it has the column by_row. layers: it has
+ * this column, layer_a and layer_b. tight: it may list tight pairs. */
 bool gis_conflicts_begin(gis_sink *sink, const char *suffix, OGRFieldType id, OGRSpatialReferenceH crs, bool by_row,
-                         bool tight, gis_sink_layer **layer, gis_error *error);
-bool gis_pushes_begin(gis_sink *sink, OGRSpatialReferenceH crs, gis_sink_layer **layer, gis_error *error);
+                         bool layers, bool tight, gis_sink_layer **layer, gis_error *error);
+/* layers: it has layer_a and layer_b. */
+bool gis_pushes_begin(gis_sink *sink, OGRSpatialReferenceH crs, bool layers, gis_sink_layer **layer, gis_error *error);
 /* Writes a row with a line as geometry. */
 bool gis_line_row(gis_sink_layer *layer, const gis_value *values, const double from[2], const double to[2],
                   gis_error *error);
@@ -116,8 +127,9 @@ bool gis_house_row(gis_sink_layer *layer, const sunder_row *row, GIntBig least_f
 
 /* ---- LAYER_symbols ----------------------------------------------------------------------------------------------- */
 
-/* multi: some symbol has several polygons. */
-bool gis_symbols_begin(gis_sink *sink, bool multi, OGRSpatialReferenceH crs, gis_sink_layer **layer, gis_error *error);
+/* main: the number of the main layer whose points have these symbols. multi: some symbol has several polygons. */
+bool gis_symbols_begin(gis_sink *sink, size_t main, bool multi, OGRSpatialReferenceH crs, gis_sink_layer **layer,
+                       gis_error *error);
 /* Writes the symbol of a feature of the source, moved: its vertices plus the move, which the core rounded so that the
  * sums are doubles. shape == NULL: it has none. */
 bool gis_symbols_row(gis_sink_layer *layer, OGRFeatureH feature, const sunder_shape *shape, double dx, double dy,

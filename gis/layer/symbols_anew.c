@@ -27,7 +27,7 @@ bool gis_write_symbols_anew(gis_sink *sink, const gis_layer_input *input, bool m
     anew.feature = NULL;
     anew.shaping = NULL;
     anew.n = 0;
-    bool done = gis_symbols_begin(sink, multi, gis_source_crs(input->source), &layer, error) &&
+    bool done = gis_symbols_begin(sink, 0, multi, gis_source_crs(input->source), &layer, error) &&
                 (!batches || gis_source_again(input->source, &any, error));
     while (done && any) {
         done = write_batch(layer, &anew, multi, move, user, error);

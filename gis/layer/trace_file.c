@@ -11,7 +11,7 @@ static void put_features(gis_json *json, const gis_layer_input *input, const sun
     gis_json_open(json, '[');
     for (size_t k = 0; k < event->things && event->thing[k] < input->n; k++) {
         const size_t feature = event->thing[k];
-        const bool unique = gis_source_fids_unique(input->source);
+        const bool unique = !input->parts && gis_source_fids_unique(input->source);
         gis_json_signed(json, unique ? gis_source_fid(input->source, feature) : (int64_t)feature);
     }
     gis_json_close(json, ']');

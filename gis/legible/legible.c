@@ -29,7 +29,7 @@ static bool check_feature(const gis_layer_input *input, size_t i, const sunder_l
     if (!shape || (input->feature && input->feature[i].ignored)) return true;
     if (sunder_shape_illegible(shape, limits, &found, &n, &why) != SUNDER_OK)
         return gis_core_failed(error, gis_source_name(input->source), &why);
-    const bool ok = add_findings(out, i, found, n, error);
+    const bool ok = add_findings(out, input->first + i, found, n, error);
     sunder_free(found);
     return ok;
 }
@@ -37,10 +37,10 @@ static bool check_feature(const gis_layer_input *input, size_t i, const sunder_l
 bool gis_legible_check(const gis_layer_input *input, const gis_legible_rules *rules, gis_legible *out, gis_error *error)
 {
     sunder_legible_limits limits;
-    *out = (gis_legible){0};
     if (!rules) return true;
     if (!gis_legible_limits(rules, &input->units, &limits, error)) return false;
-    for (int kind = 0; kind < SUNDER_ILLEGIBLE_KINDS; kind++) out->asked[kind] = rules->least[kind].text != NULL;
+    for (int kind = 0; kind < SUNDER_ILLEGIBLE_KINDS; kind++)
+        out->asked[kind] = out->asked[kind] || rules->least[kind].text;
     for (size_t i = 0; i < input->n; i++)
         if (!gis_go_on(error) || !check_feature(input, i, &limits, out, error)) return false;
     return true;
@@ -61,6 +61,8 @@ bool gis_legible_row(const gis_layer_input *input, const gis_legible *legible, s
     values[COLUMN_KIND] = (gis_value){GIS_TEXT, {.text = sunder_illegible_kind_string(f->is.kind)}};
     values[COLUMN_DISTANCE] = (gis_value){GIS_REAL, {.real = f->is.has}};
     values[COLUMN_REQUIRED] = (gis_value){GIS_REAL, {.real = f->is.required}};
+    const gis_things things = gis_things_of(input);
+    values[COLUMN_LAYER_A] = gis_things_layer(&things, f->feature);
     return gis_id_value(input, f->feature, &scratch->id[0], &values[COLUMN_ID_A], error);
 }
 

@@ -32,8 +32,9 @@ typedef struct gis_legible {
     bool asked[SUNDER_ILLEGIBLE_KINDS];
 } gis_legible;
 
-/* Examines the shapes of all features that are not ignored, as they were read. rules == NULL: finds nothing. The caller
- * clears *out, on failure, too. */
+/* Examines the shapes of all features that are not ignored, as they were read, and adds what is found to *out, which
+ * starts zeroed. input: a layer with one source. rules == NULL: finds nothing. The caller clears *out, on failure,
+ * too. */
 bool gis_legible_check(const gis_layer_input *input, const gis_legible_rules *rules, gis_legible *out,
                        gis_error *error);
 void gis_legible_clear(gis_legible *legible);

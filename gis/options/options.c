@@ -20,6 +20,8 @@ void gis_options_clear(gis_options *options)
     for (int i = 0; i < OPT_N; i++) free(options->list[i]);
     for (size_t i = 0; i < options->n_owned; i++) free(options->owned[i]);
     free(options->owned);
+    for (size_t k = 0; k < options->n_more; k++) gis_options_clear(&options->more[k]);
+    free(options->more);
     *options = (gis_options){0};
 }
 
@@ -312,6 +314,25 @@ bool gis_options_set(gis_options *options, gis_option_id id, const char *value, 
     if (value && !gis_options_own(options, value, &own, error)) return false;
     options->given[id] = true;
     return set_value(&gis_option_table[id], &none, own, options, error);
+}
+
+bool gis_options_copy(const gis_options *options, gis_options *copy, gis_error *error)
+{
+    bool ok = true;
+    *copy = *options;
+    copy->owned = NULL;
+    copy->more = NULL;
+    copy->n_owned = copy->n_more = 0;
+    for (int id = 0; id < OPT_N; id++) {
+        size_t n = 0;
+        copy->list[id] = NULL;
+        if (!options->list[id]) continue;
+        while (options->list[id][n]) n++;
+        copy->list[id] = malloc((n + 1) * sizeof *copy->list[id]);
+        if (copy->list[id]) memcpy(copy->list[id], options->list[id], (n + 1) * sizeof *copy->list[id]);
+        ok = ok && copy->list[id];
+    }
+    return ok || gis_no_memory(error);
 }
 
 /* Sets the defaults of choices. */

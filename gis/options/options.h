@@ -161,6 +161,11 @@ struct gis_options {
     const struct gis_legible_rules *legible; /* what check asks of each feature */
     const char *sheet;          /* it, with the other options in it, as JSON */
     const char *original_layer; /* the layer that moves, in its source: check --before looks for it */
+    /* If several layers of the sheet move: its name, with which the names of other results begin; the name of the layer
+     * that these options are about; and the options of the other layers, which are owned. */
+    const char *sheet_name, *layer_name;
+    struct gis_options *more; /* [n_more] */
+    size_t n_more;
 };
 
 /* Parses the arguments that follow the name of the command. *out borrows the strings of argv. If --help is among them,
@@ -175,6 +180,8 @@ void gis_options_clear(gis_options *options);
 bool gis_options_set(gis_options *options, gis_option_id id, const char *value, gis_error *error);
 /* Sets *copy to a copy of a text that lives as long as the options. */
 bool gis_options_own(gis_options *options, const char *text, const char **copy, gis_error *error);
+/* Copies options; the copy borrows the texts. */
+bool gis_options_copy(const gis_options *options, gis_options *copy, gis_error *error);
 bool gis_options_finish(gis_options *options, gis_error *error);
 
 /* Print --help of the program, and of one command, to stdout. */

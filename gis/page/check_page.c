@@ -167,9 +167,9 @@ bool gis_check_page_write(const gis_layer_input *input, const sunder_report *rep
     page_row *row = collect_rows(report, legible, &n);
     if (!row) return gis_no_memory(error);
     gis_text_add(to, head);
-    gis_escape_markup(to, gis_source_name(input->source));
+    gis_escape_markup(to, gis_layer_title(input));
     gis_text_add(to, ": what check found</title></head><body>\n<h1>");
-    gis_escape_markup(to, gis_source_name(input->source));
+    gis_escape_markup(to, gis_layer_title(input));
     gis_text_add(to, "</h1>\n<p>");
     gis_print_count(to, n);
     gis_text_add(to, n == 1 ? " finding in " : " findings in ");

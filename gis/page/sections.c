@@ -29,7 +29,7 @@ void gis_page_open_link(const double window[4], gis_text *to)
 bool gis_page_title(const gis_page_model *model, const gis_thinning *thinning, gis_text *to, gis_error *error)
 {
     (void)thinning, (void)error;
-    gis_escape_markup(to, gis_source_name(model->request->input->source));
+    gis_escape_markup(to, gis_layer_title(model->request->input));
     return true;
 }
 

@@ -281,6 +281,10 @@ static void add_call(const gis_page_model *model, gis_text *to)
     gis_text_add(to, "<dl class=\"terms call\">\n");
     open_term(to, "input");
     gis_escape_markup(to, gis_source_path(request->input->source));
+    for (size_t k = 1; k < request->input->parts; k++) {
+        gis_text_add(to, ", ");
+        gis_escape_markup(to, gis_source_path(request->input->part[k].source));
+    }
     close_term(to);
     open_term(to, "output");
     gis_escape_markup(to, request->output);

@@ -8,12 +8,20 @@
 #include "legible/legible.h"
 #include "options/options.h"
 
+/* What holds for one layer that moves. */
+typedef struct gis_sheet_moving {
+    gis_gap_classes gaps; /* those of the sheet, with the class or field of this layer */
+    gis_legible_rules legible;
+} gis_sheet_moving;
+
 typedef struct gis_sheet {
     struct json_object *root, *effective; /* as in the file; with the options of the command line in it */
     const char *path;                     /* of the file, as given */
     char *directory;                      /* relative paths in the file are relative to it */
-    gis_legible_rules legible;            /* of the layer that moves */
+    char *stem;                           /* the name of the file without its ending */
     gis_gap_classes gaps;                 /* name, rule and of_barrier are owned here */
+    gis_sheet_moving *of_layer;           /* [moving] */
+    size_t moving;                        /* the number of layers that move */
     const char **name;                    /* [gaps.classes] borrowed from `root`; name[0] is NULL */
     gis_gap_rule *rule;                   /* [gaps.rules] */
     uint32_t *of_barrier;                 /* [barriers] */

@@ -39,6 +39,14 @@ bool gis_sheet_read_class(const gis_sheet *sheet, struct json_object *layer, con
     return *field || gis_sheet_fail(sheet, error, at, "\"field\" is missing");
 }
 
+bool gis_sheet_is_for_all(struct json_object *rule)
+{
+    struct json_object *between = gis_sheet_member(rule, "between");
+    for (size_t k = 0; k < 2; k++)
+        if (!is_every(json_object_get_string(json_object_array_get_idx(between, k)))) return false;
+    return true;
+}
+
 /* The number of the class with this name, which is added if it is new. */
 static bool find_class(gis_sheet *sheet, const char *name, uint32_t *out, gis_error *error)
 {

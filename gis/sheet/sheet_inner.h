@@ -43,6 +43,8 @@ uint32_t gis_sheet_class(const gis_sheet *sheet, const char *name);
 /* Reads "class" of a layer: a name (unless given that of the layer), or a field. Sets the other to NULL. */
 bool gis_sheet_read_class(const gis_sheet *sheet, struct json_object *layer, const char *place, const char **name,
                           const char **field, gis_error *error);
+/* Is the rule about all classes? */
+bool gis_sheet_is_for_all(struct json_object *rule);
 /* Fails if a rule has a class that no layer has, unless a layer has its classes in a field. */
 bool gis_sheet_check_classes(const gis_sheet *sheet, gis_error *error);
 
@@ -66,6 +68,17 @@ bool gis_sheet_read_legible(const gis_sheet *sheet, struct json_object *of, cons
                             gis_error *error);
 /* What each of its keys means. */
 extern const char *const gis_sheet_legible_about[SUNDER_ILLEGIBLE_KINDS];
+
+/* ---- sheet_moving.c ---------------------------------------------------------------------------------------------- */
+
+/* Applies the n layers that move: the first to the options, each other one to a copy of them (options->more). */
+bool gis_sheet_apply_moving(gis_sheet *sheet, size_t n, gis_options *options, gis_error *error);
+/* Gives the options of each layer that moves the gaps of classes and least sizes, if there are some. */
+void gis_sheet_lend_rules(gis_sheet *sheet, gis_options *options);
+/* Does the rule hold for all layers that move, so that no layer has a value of its own? */
+bool gis_sheet_is_common(gis_option_id id);
+/* Is it a layer that moves? */
+bool gis_sheet_is_moving(struct json_object *layer);
 
 /* ---- sheet_print.c ----------------------------------------------------------------------------------------------- */
 

@@ -24,15 +24,45 @@ static struct json_object *value_of(const gis_options *options, const gis_option
     return json_object_new_double_s(options->number[option->id], number);
 }
 
-static struct json_object *moving_layer(struct json_object *root)
+/* Puts a gap of the command line into the rules for all classes, which come first. */
+static void put_gap_value(struct json_object *root, const char *key, struct json_object *value)
 {
-    struct json_object *layers = gis_sheet_member(root, "layers");
+    struct json_object *old = gis_sheet_member(root, "gaps"), *gaps = json_object_new_array();
+    const size_t n = old ? json_object_array_length(old) : 0;
+    if (n == 0 || !gis_sheet_is_for_all(json_object_array_get_idx(old, 0))) {
+        struct json_object *rule = json_object_new_object(), *between = json_object_new_array();
+        for (int k = 0; k < 2; k++) json_object_array_add(between, json_object_new_string("*"));
+        json_object_object_add(rule, "between", between);
+        json_object_array_add(gaps, rule);
+    }
+    for (size_t k = 0; k < n; k++) json_object_array_add(gaps, json_object_get(json_object_array_get_idx(old, k)));
+    json_object_object_add(root, "gaps", gaps);
+    for (size_t k = 0; k < json_object_array_length(gaps); k++) {
+        struct json_object *rule = json_object_array_get_idx(gaps, k);
+        if (!gis_sheet_is_for_all(rule)) break;
+        json_object_object_add(rule, key, json_object_get(value));
+    }
+    json_object_put(value);
+}
+
+/* Puts the value of an option of the command line where it has the same effect. */
+static void put_value(struct json_object *root, const char *key, const gis_options *options, const gis_option *option)
+{
+    struct json_object *layers = gis_sheet_member(root, "layers"), *defaults = gis_sheet_member(root, "defaults");
+    const bool gap = option->id == OPT_GAP || option->id == OPT_LEAST_GAP;
+    if (gap && (gis_sheet_member(root, "gaps") || options->n_more)) {
+        put_gap_value(root, option->id == OPT_GAP ? "gap" : "least", value_of(options, option));
+        return;
+    }
+    if (options->n_more && gis_sheet_is_common(option->id)) {
+        if (!defaults) json_object_object_add(root, "defaults", defaults = json_object_new_object());
+        json_object_object_add(defaults, key, value_of(options, option));
+        return;
+    }
     for (size_t k = 0; k < json_object_array_length(layers); k++) {
         struct json_object *layer = json_object_array_get_idx(layers, k);
-        const char *role = json_object_get_string(gis_sheet_member(layer, "role"));
-        if (role && strcmp(role, "move") == 0) return layer;
+        if (gis_sheet_is_moving(layer)) json_object_object_add(layer, key, value_of(options, option));
     }
-    return root;
 }
 
 bool gis_sheet_make_effective(gis_sheet *sheet, const gis_options *options, gis_error *error)
@@ -43,8 +73,7 @@ bool gis_sheet_make_effective(gis_sheet *sheet, const gis_options *options, gis_
         char key[64];
         if (!sheet->said[id]) continue;
         if (id == OPT_SCALE) json_object_object_add(sheet->effective, "scale", value_of(options, option));
-        if (gis_rule_key(option, key, sizeof key))
-            json_object_object_add(moving_layer(sheet->effective), key, value_of(options, option));
+        if (gis_rule_key(option, key, sizeof key)) put_value(sheet->effective, key, options, option);
     }
     return true;
 }
@@ -180,7 +209,7 @@ bool gis_sheet_print_schema(gis_error *error)
     gis_json_close(&out, '}');
     gis_json_close(&out, '}');
     put_legible(&out);
-    open_array(&out, "layers", "one layer moves, the others do not");
+    open_array(&out, "layers", "layers that move, and layers that do not");
     put_layer(&out);
     gis_json_close(&out, '}');
     open_array(&out, "gaps", "the last one that matches two classes counts");

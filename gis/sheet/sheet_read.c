@@ -62,56 +62,9 @@ static bool parse(gis_sheet *sheet, gis_error *error)
 
 /* ---- Layers ------------------------------------------------------------------------------------------------------ */
 
-const char *const gis_sheet_moving_keys[] = {"name", "source", "layer", "role", "class", "crs", "legible", NULL};
 static const char *const sheet_keys[] = {"title", "scale", "defaults", "layers", "gaps", "legible", NULL};
 
-static bool set_text(const gis_sheet *sheet, struct json_object *layer, const char *place, const char *key,
-                     gis_option_id id, gis_options *options, gis_error *error)
-{
-    const char *text;
-    gis_error why;
-    if (!gis_sheet_text(sheet, layer, place, key, &text, error)) return false;
-    if (!text || options->given[id] || !(gis_option_table[id].commands & options->command->bit)) return true;
-    return gis_options_set(options, id, text, &why) || gis_sheet_fail(sheet, error, place, "%s", why.message);
-}
-
-/* Makes the source the first operand, unless check was given another one. */
-static bool set_operands(const gis_sheet *sheet, const char *source, gis_options *options, gis_error *error)
-{
-    const bool check = options->command->bit == GIS_CHECK;
-    if (check && options->n_operands > 0) return true;
-    if (options->n_operands >= options->command->most)
-        return gis_fail_usage(error, "--spec names the layer that moves; leave out INPUT");
-    char *path = gis_sheet_dataset(sheet, source);
-    const bool ok = gis_options_own(options, path, &source, error);
-    CPLFree(path);
-    for (size_t k = options->n_operands; ok && k > 0; k--) options->operand[k] = options->operand[k - 1];
-    options->operand[0] = source;
-    options->n_operands++;
-    return ok;
-}
-
-static bool apply_moving(gis_sheet *sheet, struct json_object *layer, const char *place, gis_options *options,
-                         gis_error *error)
-{
-    const char *source, *name, *of;
-    const bool other = options->command->bit == GIS_CHECK && options->n_operands > 0;
-    if (!gis_sheet_check_keys(sheet, layer, place, gis_sheet_moving_keys, true, error) ||
-        !gis_sheet_text(sheet, layer, place, "source", &source, error) ||
-        !gis_sheet_read_class(sheet, layer, place, &of, &sheet->gaps.field, error))
-        return false;
-    sheet->gaps.of_features = of ? gis_sheet_class(sheet, of) : 0;
-    sheet->classes_by_field = sheet->classes_by_field || sheet->gaps.field;
-    return gis_sheet_text(sheet, layer, place, "name", &name, error) && set_operands(sheet, source, options, error) &&
-           gis_sheet_text(sheet, layer, place, "layer", &options->original_layer, error) &&
-           (other || set_text(sheet, layer, place, "layer", OPT_INPUT_LAYER, options, error)) &&
-           set_text(sheet, layer, place, "crs", OPT_INPUT_CRS, options, error) &&
-           (options->command->bit == GIS_CHECK ||
-            set_text(sheet, layer, place, "name", OPT_OUTPUT_LAYER, options, error)) &&
-           gis_sheet_read_legible(sheet, layer, place, &sheet->legible, error) &&
-           gis_rules_set(sheet, layer, place, options, error);
-}
-
+/* Applies a layer that does not move, and counts those that move. */
 static bool apply_layer(gis_sheet *sheet, struct json_object *layer, const char *place, size_t *moving,
                         gis_options *options, gis_error *error)
 {
@@ -127,8 +80,8 @@ static bool apply_layer(gis_sheet *sheet, struct json_object *layer, const char 
         return gis_sheet_fail(sheet, error, place, "a layer that follows is moved by sunder follow, from the result");
     if (!role || strcmp(role, "move") != 0)
         return gis_sheet_fail(sheet, error, place, "\"role\" must be move, fixed or barrier");
-    if ((*moving)++) return gis_sheet_fail(sheet, error, place, "a second layer with the role move; one can move");
-    return apply_moving(sheet, layer, place, options, error);
+    (*moving)++;
+    return true;
 }
 
 static bool apply_layers(gis_sheet *sheet, gis_options *options, gis_error *error)
@@ -142,7 +95,8 @@ static bool apply_layers(gis_sheet *sheet, gis_options *options, gis_error *erro
         snprintf(place, sizeof place, "layers[%zu]", k);
         if (!apply_layer(sheet, json_object_array_get_idx(layers, k), place, &moving, options, error)) return false;
     }
-    return moving || gis_sheet_fail(sheet, error, "layers", "none has the role move");
+    if (!moving) return gis_sheet_fail(sheet, error, "layers", "none has the role move");
+    return gis_sheet_apply_moving(sheet, moving, options, error);
 }
 
 /* ---- All of it --------------------------------------------------------------------------------------------------- */
@@ -159,11 +113,9 @@ static bool apply_sheet(gis_sheet *sheet, gis_options *options, gis_error *error
     if (defaults && !json_object_is_type(defaults, json_type_object))
         return gis_sheet_fail(sheet, error, "defaults", "must be an object of rules");
     const char *const none[] = {NULL};
-    return gis_sheet_read_gaps(sheet, options, error) && apply_layers(sheet, options, error) &&
-           gis_sheet_read_legible(sheet, sheet->root, "", &sheet->legible, error) &&
-           gis_sheet_check_classes(sheet, error) &&
+    return gis_sheet_read_gaps(sheet, options, error) &&
            (!defaults || gis_sheet_check_keys(sheet, defaults, "defaults", none, true, error)) &&
-           gis_rules_set(sheet, defaults, "defaults", options, error);
+           apply_layers(sheet, options, error) && gis_sheet_check_classes(sheet, error);
 }
 
 void gis_sheet_lend_gaps(gis_sheet *sheet, gis_options *options)
@@ -184,10 +136,12 @@ bool gis_sheet_apply(gis_options *options, gis_sheet *out, gis_error *error)
         return false;
     options->sheet =
         json_object_to_json_string_ext(out->effective, JSON_C_TO_STRING_PLAIN | JSON_C_TO_STRING_NOSLASHESCAPE);
-    gis_sheet_lend_gaps(out, options);
-    if (gis_legible_any_rule(&out->legible)) options->legible = &out->legible;
+    gis_sheet_lend_rules(out, options);
     options->given[OPT_SPEC] = false; /* what the sheet says is given now, and a plan stores that */
-    return options->given[OPT_PRINT_SPEC] || gis_options_finish(options, error);
+    if (options->given[OPT_PRINT_SPEC]) return true;
+    for (size_t k = 0; k < options->n_more; k++)
+        if (!gis_options_finish(&options->more[k], error)) return false;
+    return gis_options_finish(options, error);
 }
 
 void gis_sheet_clear(gis_sheet *sheet)
@@ -195,6 +149,8 @@ void gis_sheet_clear(gis_sheet *sheet)
     json_object_put(sheet->effective);
     json_object_put(sheet->root);
     CPLFree(sheet->directory);
+    CPLFree(sheet->stem);
+    free(sheet->of_layer);
     free(sheet->name);
     free(sheet->rule);
     free(sheet->of_barrier);

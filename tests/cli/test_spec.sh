@@ -43,6 +43,31 @@ jq '.gaps[-1].gap += 0.25' < <(sed 1d sheet.json) >other.json
 expect 1 plan --spec other.json plan.dir --shards 2 -q --allow-conflicts --proof shards.jsonl
 grep -q 'another command line' err || fail "a plan of other gaps: $(cat err)"
 
+# ---- Several layers that move: each as it came, with what its own gaps and rules say
+any=0
+for seed in 1 2 3 4; do
+    rm -f town2.gpkg
+    worlds make town2.gpkg sheet2.json $seed together
+    expect 0 separate --spec sheet2.json together.gpkg --overwrite -q --allow-conflicts --stats stats.json --report page.html
+    read -r pairs near found listed < <(worlds judge together.gpkg town2.gpkg sheet2.json)
+    [ "$near" = "$found" ] && [ "$listed" = "$found" ] || fail "together $seed: $near of $pairs pairs are too near, $listed are listed"
+    any=$((any + near))
+    worlds kept together.gpkg town2.gpkg sheet2.json
+    same "$(jq -c '[.layer, .verified, ([.layers[].features] | add) == .features]' stats.json)" '["sheet2",true,true]' "together $seed:"
+    expect 0 check --spec sheet2.json together.gpkg --allow-conflicts --stats check.json --report check.html
+    same "$(jq -c .conflicts.after stats.json)" "$(jq -c .conflicts check.json)" "together $seed:"
+done
+[ "$any" -gt 0 ] || fail "no pair of several layers remained too near, so that the list was not asked"
+same "$(ogrinfo -q together.gpkg | sed 's/^[0-9]*: //; s/ (.*//' | tr '\n' ' ')" \
+    'marks moved sheds sheet2_displacement sheet2_conflicts sheet2_pushes marks_symbols layer_styles ' 'the layers:'
+expect 0 separate --spec sheet2.json named.gpkg -q --allow-conflicts --output-layer all --layers main,conflicts
+same "$(ogrinfo -q named.gpkg | sed 's/^[0-9]*: //; s/ (.*//' | tr '\n' ' ')" 'marks moved sheds all_conflicts layer_styles ' 'named layers:'
+expect 0 separate --spec sheet2.json named.gpkg -q --allow-conflicts --update --overwrite-layer --layers main
+expect 1 separate --spec sheet2.json named.gpkg -q --allow-conflicts --update
+grep -q 'has a layer marks already' err || fail "$(cat err)"
+expect 1 separate --spec sheet2.json together.shp -q --allow-conflicts
+grep -q 'holds one layer a file' err || fail "$(cat err)"
+
 # ---- One gap: the same bytes as the options
 cat >one.json <<'JSON'
 {"scale": "1:10000", // metres of the ground: 0.2 mm are 2 m
@@ -92,7 +117,12 @@ wrong() { # WORDS FILTER: of one.json
 wrong 'layers[0]: there is no key max_shfit, did you mean max-shift?' '.layers[0].max_shfit = 3'
 wrong 'defaults.max_shift: --max-shift 3 parsecs' '.defaults.max_shift = "3 parsecs"'
 wrong 'layers: none has the role move' 'del(.layers[0])'
-wrong 'layers[2]: a second layer with the role move' '.layers[2] = .layers[0]'
+wrong 'two layers that move have the name houses' '.layers[2] = .layers[0]'
+wrong 'layers[2]: "name" is missing' '.layers[2] = .layers[0] | del(.layers[2].name)'
+wrong 'layers[2]: gap holds for all layers that move: put it into "defaults"' \
+    '.layers[2] = .layers[0] | .layers[2].name = "more" | .layers[2].gap = 3'
+wrong 'not with several layers that move: --trim' \
+    '.layers[2] = .layers[0] | .layers[2].name = "more" | .layers[2].trim = true'
 wrong 'layers[1]: "source" is missing' 'del(.layers[1].source)'
 wrong 'layers[1]: "role" must be' '.layers[1].role = "wall"'
 wrong 'no layer has the class road; did you mean roads?' '.gaps = [{"between": ["road", "*"], "gap": 1}]'

@@ -268,7 +268,7 @@ static bool visit_conflicts(const gis_result *r, gis_conflict_visit *visit, void
     gis_shard_run *p = r->of;
     gis_sorted_results *conflicts = &p->joined.conflicts;
     const named names = {p, &conflicts->one};
-    const gis_things things = {&names, p->facts.source.features, part_fid, part_id, part_barrier};
+    const gis_things things = {&names, p->facts.source.features, part_fid, part_id, part_barrier, NULL};
     bool any = true;
     gis_sorted_results_rewind(conflicts);
     while (gis_sorted_results_next(conflicts, &any, error) && any) {
@@ -285,7 +285,7 @@ static bool visit_hidden_batch(const gis_result *r, bool *any, gis_hidden_visit 
     gis_shard_run *p = r->of;
     gis_sorted_results *hidden = &p->joined.hidden;
     const named names = {p, &hidden->one};
-    const gis_things things = {&names, p->facts.source.features, part_fid, part_id, part_barrier};
+    const gis_things things = {&names, p->facts.source.features, part_fid, part_id, part_barrier, NULL};
     const gis_source *source = r->input->source;
     const size_t first = gis_source_first(source), end = first + gis_source_count(source);
     while (*any && hidden->head.first < end) {
@@ -343,7 +343,7 @@ static bool visit_pushes(const gis_result *r, gis_push_visit *visit, void *user,
     bool any = true;
     while (gis_sorted_results_next(pushes, &any, error) && any) {
         const gis_part_push *push = pushes->one.push;
-        const gis_things things = {&pushes->one, p->facts.source.features, push_fid, NULL, push_barrier};
+        const gis_things things = {&pushes->one, p->facts.source.features, push_fid, NULL, push_barrier, NULL};
         if (!visit(user, &push->is, &things, push->from, push->to, error)) return false;
     }
     return !any;

@@ -70,7 +70,7 @@ static void compare_field(const gis_sink_layer *layer, OGRFieldDefnH sent, OGRFi
 static void compare_fields(gis_sink_layer *layer, OGRFeatureDefnH as_written)
 {
     gis_sink *sink = layer->sink;
-    OGRFeatureDefnH source = OGR_L_GetLayerDefn(gis_source_layer(sink->source));
+    OGRFeatureDefnH source = OGR_L_GetLayerDefn(gis_source_layer(layer->source));
     for (int i = 0; i < OGR_FD_GetFieldCount(source); i++) {
         const char *name = CSLGetField(layer->created, i);
         if (!name[0]) continue; /* the field was replaced, or its loss was reported when the layer was made */
@@ -105,7 +105,7 @@ static const char *crs_name(OGRSpatialReferenceH crs)
 
 static void compare_crs(gis_sink_layer *layer, OGRLayerH as_written)
 {
-    OGRSpatialReferenceH sent = gis_source_crs(layer->sink->source), kept = OGR_L_GetSpatialRef(as_written);
+    OGRSpatialReferenceH sent = gis_source_crs(layer->source), kept = OGR_L_GetSpatialRef(as_written);
     static const char *const options[] = {"IGNORE_DATA_AXIS_TO_SRS_AXIS_MAPPING=YES", "CRITERION=EQUIVALENT", NULL};
     if (!sent && !kept) return;
     if (!sent || !kept || !OSRIsSameEx(sent, kept, options)) {
@@ -130,8 +130,7 @@ static void tell_values(gis_sink_layer *layer)
             gis_sentences_add(losses, "layer %s, field %s: %zu value%s back as written", layer->name, name,
                               change->count, change->count == 1 ? " does not read" : "s do not read");
     }
-    if (nulls.text[0])
-        gis_sentences_add(losses, "layer %s: null reads back as a value in %s", layer->name, nulls.text);
+    if (nulls.text[0]) gis_sentences_add(losses, "layer %s: null reads back as a value in %s", layer->name, nulls.text);
     if (layer->fid_change.count && gis_sink_tells(layer))
         gis_sentences_add(losses, "%zu FID%s back as written (first: FID %" PRId64 ")", layer->fid_change.count,
                           layer->fid_change.count == 1 ? " does not read" : "s do not read",
@@ -141,7 +140,7 @@ static void tell_values(gis_sink_layer *layer)
 void gis_sink_find_losses(gis_sink_layer *layer, OGRLayerH as_written)
 {
     tell_values(layer);
-    if (!gis_sink_tells(layer) || !layer->sink->source) return;
+    if (!gis_sink_tells(layer) || !layer->source) return;
     gis_listener listener = {0}; /* PROJ may report errors when CRSs are compared; they are ignored */
     gis_listen_begin(&listener);
     compare_fields(layer, OGR_L_GetLayerDefn(as_written));

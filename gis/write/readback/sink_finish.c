@@ -248,7 +248,7 @@ static bool write_styles(gis_sink *sink, gis_error *error)
     if (!sink->format.geopackage || sink->request.no_styles) return true;
     for (size_t i = 0; i < sink->n_layers; i++) {
         gis_sink_layer *layer = sink->layers[i];
-        const gis_source *from = layer->request.as_source ? sink->source : NULL;
+        const gis_source *from = layer->request.as_source ? layer->source : NULL;
         if (!gis_styles_write(layer->dataset, layer->layer, layer->request.style,
                               from ? gis_source_dataset(from) : NULL, from ? gis_source_layer(from) : NULL, error))
             return false;

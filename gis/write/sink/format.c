@@ -85,8 +85,7 @@ bool gis_format_find(const char *path, const char *name, const char *const *laye
     format.shapefile = EQUAL(format.name, "ESRI Shapefile");
     format.geopackage = EQUAL(format.name, "GPKG");
     format.sqlite = format.geopackage || EQUAL(format.name, "SQLite");
-    format.only_written =
-        !GDALGetMetadataItem(format.driver, GDAL_DCAP_OPEN, NULL) || (able.has & GIS_IS_NOT_READ);
+    format.only_written = !GDALGetMetadataItem(format.driver, GDAL_DCAP_OPEN, NULL) || (able.has & GIS_IS_NOT_READ);
     format.abilities = able.has;
     format.own_field = able.own_field;
     format.keeps_fids = able.has & GIS_KEEPS_FIDS;
@@ -112,8 +111,8 @@ static bool lists(const char *list, const char *option)
     CPLXMLNode *root = list ? CPLParseXMLString(list) : NULL;
     bool found = !root;
     for (const CPLXMLNode *node = root ? root->psChild : NULL; node && !found; node = node->psNext)
-        found = node->eType == CXT_Element && (EQUAL(CPLGetXMLValue(node, "name", ""), option) ||
-                                               EQUAL(CPLGetXMLValue(node, "alias", ""), option));
+        found = node->eType == CXT_Element &&
+                (EQUAL(CPLGetXMLValue(node, "name", ""), option) || EQUAL(CPLGetXMLValue(node, "alias", ""), option));
     CPLDestroyXMLNode(root);
     return found;
 }
@@ -124,16 +123,14 @@ bool gis_format_has_option(const gis_format *format, const char *option)
     return list && lists(list, option);
 }
 
-void gis_format_tell_unknown(const gis_format *format, const char *kind, const char *const *options,
-                             gis_sentences *out)
+void gis_format_tell_unknown(const gis_format *format, const char *kind, const char *const *options, gis_sentences *out)
 {
     const char *list = GDALGetMetadataItem(format->driver, kind, NULL);
     for (size_t i = 0; options && options[i]; i++) {
         char *name = NULL;
         CPLParseNameValue(options[i], &name);
         if (name && !lists(list, name))
-            gis_sentences_add(out, "creation option %s has no effect: %s has no such option", options[i],
-                              format->name);
+            gis_sentences_add(out, "creation option %s has no effect: %s has no such option", options[i], format->name);
         CPLFree(name);
     }
 }

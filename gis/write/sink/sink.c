@@ -87,6 +87,13 @@ static bool check_request(const gis_sink_request *request, gis_error *error)
     return true;
 }
 
+/* Can the format keep the FIDs of this source, if it keeps any? */
+static bool keeps_fids_of(const gis_format *format, const gis_source *source)
+{
+    return !source || (gis_source_fids_unique(source) &&
+                       !((format->abilities & GIS_NEEDS_POSITIVE_FIDS) && gis_source_fids_negative(source)));
+}
+
 bool gis_sink_open(const gis_sink_request *request, const gis_source *source, gis_sink **out, gis_error *error)
 {
     gis_format format;
@@ -98,8 +105,9 @@ bool gis_sink_open(const gis_sink_request *request, const gis_source *source, gi
     sink->request = *request;
     sink->source = source;
     sink->format = format;
-    sink->fids_kept = format.keeps_fids && !request->new_fids && (!source || gis_source_fids_unique(source)) &&
-                      !(source && (format.abilities & GIS_NEEDS_POSITIVE_FIDS) && gis_source_fids_negative(source));
+    sink->fids_kept = format.keeps_fids && !request->new_fids && keeps_fids_of(&format, source);
+    for (size_t k = 0; k < request->n_more; k++)
+        sink->fids_kept = sink->fids_kept && keeps_fids_of(&format, request->more[k].source);
     gis_format_tell_unknown(&format, GDAL_DMD_CREATIONOPTIONLIST, request->dataset_options, &sink->losses);
     gis_format_tell_unknown(&format, GDAL_DS_LAYER_CREATIONOPTIONLIST, request->layer_options, &sink->losses);
     choose_place(sink);
@@ -119,10 +127,7 @@ void gis_sink_tell_loss(gis_sink_layer *layer, const char *sentence)
     gis_sentences_add(&layer->sink->losses, "%s", sentence);
 }
 
-bool gis_sink_has_null(const gis_sink_layer *layer)
-{
-    return !(layer->sink->format.abilities & GIS_HAS_NO_NULL);
-}
+bool gis_sink_has_null(const gis_sink_layer *layer) { return !(layer->sink->format.abilities & GIS_HAS_NO_NULL); }
 
 bool gis_sink_takes_more(const gis_sink *sink) { return !sink->to_stdout; }
 
@@ -154,7 +159,8 @@ static gis_sink_layer *new_layer(gis_sink *sink, const gis_sink_layer_request *r
     gis_field *fields = CPLMalloc((request->n_fields + 1) * sizeof *fields);
     if (request->n_fields) memcpy(fields, request->fields, request->n_fields * sizeof *fields);
     layer->request.fields = fields;
-    layer->name = gis_sink_name_for(sink, request->suffix);
+    layer->source = gis_sink_source(sink, request->main);
+    layer->name = gis_sink_name_of(sink, request);
     if (sink->format.one_layer)
         layer->file = sink->to_stdout || !request->suffix[0] ? CPLStrdup(sink->main_file)
                                                              : gis_sink_file_for(sink, request->suffix);

@@ -17,6 +17,12 @@
 #include "gpkg/layer_styles.h"
 #include "read/source.h"
 
+/* A main layer beside the first: its source, which must live until gis_sink_free(), and its name. */
+typedef struct gis_sink_main {
+    const gis_source *source;
+    const char *name;
+} gis_sink_main;
+
 /* Where and how to write; zeroed members mean "not given". Strings and lists are borrowed until gis_sink_free(). */
 typedef struct gis_sink_request {
     const char *path;
@@ -25,15 +31,18 @@ typedef struct gis_sink_request {
     const char *const *dataset_options; /* --co, -dsco */
     const char *main_layer;             /* name of the main layer: --output-layer, by default gis_source_name() ("sum"
                                          * without a source) */
-    const char *const *suffixes;        /* suffixes of the layers that will be added besides the main one, so that
+    const gis_sink_main *more;          /* [n_more] the main layers besides it */
+    size_t n_more;
+    const char *prefix;          /* what the names of all other layers begin with; NULL: the main layer's name */
+    const char *const *suffixes; /* suffixes of the layers that will be added besides the main one, so that
                                          * existing ones are noticed at once */
     bool overwrite, update, overwrite_layer;
     bool strict;        /* any loss is an error */
     bool allow_inexact; /* --allow-inexact-output */
     bool no_styles;
-    bool promote;  /* -nlt PROMOTE_TO_MULTI: geometries of the main layer become multipolygons or multipoints */
-    bool features; /* the main layer holds the features of the source */
-    bool polygons; /* the main layer holds polygons, or may */
+    bool promote;        /* -nlt PROMOTE_TO_MULTI: geometries of the main layer become multipolygons or multipoints */
+    bool features;       /* the main layer holds the features of the source */
+    bool polygons;       /* the main layer holds polygons, or may */
     const char *scratch; /* a directory for the hashes and boxes noted of each feature; NULL: in memory */
     unsigned threads;    /* 0: the number of processors */
     bool new_fids; /* features of the source are written more than once: FIDs are not kept, and the field sunder_fid
@@ -64,8 +73,9 @@ typedef struct gis_field {
 } gis_field;
 
 typedef struct gis_sink_layer_request {
-    const char *suffix;       /* "" for the main layer; "displacement" for the layer MAIN_displacement, which a
+    const char *suffix;       /* "" for a main layer; "displacement" for the layer MAIN_displacement, which a
                                * one-layer format writes to OUT_displacement.shp */
+    size_t main;              /* if like_source: 0 for the main layer, or 1 + the index in `more` */
     bool like_source;         /* the layer begins with all fields of the source's layer and their constraints, and FIDs
                                * are kept */
     bool as_source;           /* the layer also has the geometry type, column names, identifier and description of the
@@ -106,10 +116,10 @@ bool gis_sink_write_line(gis_sink_layer *layer, const double from[2], const doub
  * copy. */
 bool gis_sink_write_moved(gis_sink_layer *layer, OGRFeatureH feature, double dx, double dy, const gis_value *values,
                           gis_error *error);
-/* Writes feature i of the sink's source, translated by (dx, dy), into a like_source layer. */
+/* Writes feature i of the layer's source, translated by (dx, dy), into a like_source layer. */
 bool gis_sink_write_source(gis_sink_layer *layer, size_t i, double dx, double dy, const gis_value *values,
                            gis_error *error);
-/* Writes feature i of the sink's source with another geometry, which the layer then owns, into a like_source layer. */
+/* Writes feature i of the layer's source with another geometry, which the layer then owns, into a like_source layer. */
 bool gis_sink_write_shaped(gis_sink_layer *layer, size_t i, OGRGeometryH geometry, const gis_value *values,
                            gis_error *error);
 

@@ -16,6 +16,13 @@
 #include <string.h>
 #include <sys/stat.h>
 
+bool gis_sink_is_input(const gis_sink *sink, const char *path)
+{
+    for (size_t k = 0; k <= sink->request.n_more; k++)
+        if (gis_source_lies_in(gis_sink_source(sink, k), path)) return true;
+    return false;
+}
+
 /* ---- What exists ------------------------------------------------------------------------------------------------- */
 
 static GDALDatasetH open_quietly(const char *path, unsigned flags, const gis_format *format)
@@ -39,13 +46,22 @@ static bool has_layer(GDALDatasetH dataset, const char *name)
     return found;
 }
 
-/* Fails if the layer with this suffix is the input layer itself, or exists and may not be replaced. */
-static bool check_layer_name(const gis_sink *sink, GDALDatasetH dataset, const char *suffix, bool is_source,
-                             gis_error *error)
+/* Is the layer of the output with this name a layer that is read? */
+static bool is_input_layer(const gis_sink *sink, const char *name)
 {
-    char *name = gis_sink_name_for(sink, suffix);
+    for (size_t k = 0; k <= sink->request.n_more; k++) {
+        const gis_source *source = gis_sink_source(sink, k);
+        if (gis_source_lies_in(source, sink->request.path) && EQUAL(name, OGR_L_GetName(gis_source_layer(source))))
+            return true;
+    }
+    return false;
+}
+
+/* Fails if the layer is an input layer itself, or exists and may not be replaced. Frees the name. */
+static bool check_layer_name(const gis_sink *sink, GDALDatasetH dataset, char *name, gis_error *error)
+{
     bool done = true;
-    if (is_source && EQUAL(name, OGR_L_GetName(gis_source_layer(sink->source))))
+    if (is_input_layer(sink, name))
         done = gis_fail(error, "layer %s of %s is the input itself; give the output another name with --output-layer",
                         name, sink->request.path);
     else if (!sink->request.overwrite_layer && has_layer(dataset, name))
@@ -59,10 +75,11 @@ static bool check_layer_names(const gis_sink *sink, gis_error *error)
 {
     GDALDatasetH dataset = open_quietly(sink->request.path, GDAL_OF_READONLY, NULL);
     if (!dataset) return gis_fail(error, "%s: cannot be opened to add layers", sink->request.path);
-    bool is_source = gis_source_lies_in(sink->source, sink->request.path);
-    bool done = check_layer_name(sink, dataset, "", is_source, error);
+    bool done = check_layer_name(sink, dataset, gis_sink_name_for(sink, ""), error);
+    for (size_t k = 0; done && k < sink->request.n_more; k++)
+        done = check_layer_name(sink, dataset, CPLStrdup(sink->request.more[k].name), error);
     for (const char *const *suffix = sink->request.suffixes; done && suffix && *suffix; suffix++)
-        done = check_layer_name(sink, dataset, *suffix, is_source, error);
+        done = check_layer_name(sink, dataset, gis_sink_name_for(sink, *suffix), error);
     GDALClose(dataset);
     return done;
 }
@@ -89,7 +106,7 @@ static bool check_file(const gis_sink *sink, const char *suffix, gis_error *erro
     bool replace = sink->request.overwrite || sink->request.overwrite_layer;
     bool done = check_is_file(path, error);
     if (done && gis_sink_exists(path)) {
-        if (gis_source_lies_in(sink->source, path))
+        if (gis_sink_is_input(sink, path))
             done = gis_fail(error, "%s: input and output are the same", path);
         else if (!replace)
             done = gis_fail(error, "%s exists already; --overwrite replaces it", path);
@@ -139,7 +156,7 @@ static bool check_database_file(const gis_sink *sink, gis_error *error)
                         "%s%s belongs to a former database and would be read as part of the new one; move it away",
                         path, gis_sqlite_has_log(path) ? "-wal" : "-journal");
     if (there && gis_sqlite_has_journal(path) && !gis_sqlite_being_written(path)) settle_journal(sink);
-    if (there && sink->request.overwrite && !gis_source_lies_in(sink->source, path) && !gis_sqlite_can_replace(path) &&
+    if (there && sink->request.overwrite && !gis_sink_is_input(sink, path) && !gis_sqlite_can_replace(path) &&
         gis_sqlite_in_use(path))
         return gis_fail(error, "%s is in use by another program: close it there, or write another file", path);
     return true;
@@ -156,7 +173,7 @@ static bool check_whole(gis_sink *sink, gis_error *error)
         return check_layer_names(sink, error);
     }
     /* A new member of the archive that is read counts as the input too, since the archive's directory is rewritten. */
-    if ((there || sink->place == GIS_PLACE_MEMORY) && gis_source_lies_in(sink->source, path))
+    if ((there || sink->place == GIS_PLACE_MEMORY) && gis_sink_is_input(sink, path))
         return gis_fail(error, "%s: input and output are the same; --update adds layers of other names to it", path);
     if (!there) return true;
     if (!sink->request.overwrite)
@@ -181,6 +198,9 @@ static bool check_database(gis_sink *sink, gis_error *error)
 
 bool gis_sink_check_existing(gis_sink *sink, gis_error *error)
 {
+    if (sink->request.n_more && (sink->to_stdout || sink->format.one_layer))
+        return gis_fail(error, "%s: %zu layers move, and %s holds one layer a file; write a GeoPackage",
+                        sink->request.path, sink->request.n_more + 1, sink->format.name);
     if (sink->to_stdout) return true;
     if (sink->place == GIS_PLACE_DATABASE) return check_database(sink, error);
     return sink->format.one_layer ? check_files(sink, error) : check_whole(sink, error);
@@ -188,16 +208,21 @@ bool gis_sink_check_existing(gis_sink *sink, gis_error *error)
 
 /* ---- Formats that have no place for some features ---------------------------------------------------------------- */
 
+static bool check_geometries_of(const gis_sink *sink, const gis_source *source, gis_error *error)
+{
+    const size_t n = gis_source_content_count(source, GIS_NOTHING) + gis_source_content_count(source, GIS_BROKEN);
+    return n == 0 || gis_fail(error,
+                              "%s: %s drops features without geometry, and %zu of layer %s ha%s none: select the "
+                              "others with --where, or write another format",
+                              sink->request.path, sink->format.name, n, gis_source_name(source), n == 1 ? "s" : "ve");
+}
+
 bool gis_sink_check_geometries(const gis_sink *sink, gis_error *error)
 {
     if (!sink->request.features || !(sink->format.abilities & GIS_NEEDS_GEOMETRY)) return true;
-    const size_t n =
-        gis_source_content_count(sink->source, GIS_NOTHING) + gis_source_content_count(sink->source, GIS_BROKEN);
-    return n == 0 ||
-           gis_fail(error,
-                    "%s: %s drops features without geometry, and %zu of layer %s ha%s none: select the "
-                    "others with --where, or write another format",
-                    sink->request.path, sink->format.name, n, gis_source_name(sink->source), n == 1 ? "s" : "ve");
+    for (size_t k = 0; k <= sink->request.n_more; k++)
+        if (!check_geometries_of(sink, gis_sink_source(sink, k), error)) return false;
+    return true;
 }
 
 /* ---- Formats that cannot hold the coordinates -------------------------------------------------------------------- */

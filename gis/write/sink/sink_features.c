@@ -171,7 +171,7 @@ bool gis_sink_put_moved(gis_sink_layer *layer, OGRFeatureH feature, double dx, d
 bool gis_sink_put_source(gis_sink_layer *layer, size_t i, double dx, double dy, const gis_value *values,
                          gis_error *error)
 {
-    const gis_source *source = layer->sink->source;
+    const gis_source *source = layer->source;
     OGRFeatureH to = OGR_F_Create(OGR_L_GetLayerDefn(layer->layer));
     if (!to) return gis_no_memory(error);
     const GIntBig from = gis_source_fid(source, i);

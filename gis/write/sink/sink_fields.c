@@ -13,8 +13,7 @@
 
 OGRFeatureDefnH gis_sink_source_fields(const gis_sink_layer *layer)
 {
-    return layer->request.like_source && layer->sink->source ? OGR_L_GetLayerDefn(gis_source_layer(layer->sink->source))
-                                                             : NULL;
+    return layer->request.like_source && layer->source ? OGR_L_GetLayerDefn(gis_source_layer(layer->source)) : NULL;
 }
 
 bool gis_sink_makes_field(const gis_sink_layer *layer, const char *name)
@@ -87,8 +86,7 @@ static char *name_for(const gis_sink_layer *layer, OGRFeatureDefnH source, int i
     const size_t size = strlen(name) + DIGITS;
     char *numbered = CPLMalloc(size);
     int k = 2;
-    do
-        snprintf(numbered, size, "%s%d", name, k++);
+    do snprintf(numbered, size, "%s%d", name, k++);
     while (has_name(made, numbered) || has_name(source, numbered) || gis_sink_makes_field(layer, numbered));
     return numbered;
 }
@@ -99,7 +97,7 @@ static void copy_domain(gis_sink_layer *layer, OGRFieldDefnH field)
 {
     const char *name = OGR_Fld_GetDomainName(field);
     if (!name || !name[0] || GDALDatasetGetFieldDomain(layer->dataset, name)) return;
-    OGRFieldDomainH domain = GDALDatasetGetFieldDomain(gis_source_dataset(layer->sink->source), name);
+    OGRFieldDomainH domain = GDALDatasetGetFieldDomain(gis_source_dataset(layer->source), name);
     if (domain) /* if this fails the field is made without its domain, which is found when the layer is read back */
         GDALDatasetAddFieldDomain(layer->dataset, domain, NULL);
 }
@@ -235,7 +233,7 @@ static int create_own_field(gis_sink_layer *layer, const char *name, OGRFieldTyp
 static void create_copy(gis_sink_layer *layer)
 {
     OGRFieldDefnH like = layer->request.copied;
-    OGRFeatureDefnH source = OGR_L_GetLayerDefn(gis_source_layer(layer->sink->source));
+    OGRFeatureDefnH source = OGR_L_GetLayerDefn(gis_source_layer(layer->source));
     const int n = OGR_FD_GetFieldCount(source);
     OGRFieldDefnH field = unconstrained_copy(layer, like, OGR_Fld_GetNameRef(like), OGR_Fld_GetType(like));
     if (!field) return;
@@ -276,7 +274,7 @@ void gis_sink_create_fields(gis_sink_layer *layer)
     if (gis_sink_source_fields(layer) && !layer->sink->fids_kept)
         layer->fid_field = create_own_field(layer, FID_FIELD, OFTInteger64, 0);
     if (layer->fid_field >= 0 && gis_sink_tells(layer) && (layer->sink->format.abilities & GIS_NEEDS_POSITIVE_FIDS) &&
-        gis_source_fids_negative(layer->sink->source))
+        gis_source_fids_negative(layer->source))
         gis_sentences_add(&layer->sink->warnings, "FIDs less than 0 do not read back from %s: all stand in %s",
                           layer->sink->format.name, FID_FIELD);
     keep_own_name(layer, layer->fid_field);

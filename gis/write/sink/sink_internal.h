@@ -93,6 +93,7 @@ typedef enum gis_row { GIS_ROW_DONE, GIS_ROW_GDAL, GIS_ROW_FAILED } gis_row;
 
 struct gis_sink_layer {
     gis_sink *sink;
+    const gis_source *source;       /* of the main layer that it is, or belongs to; NULL: there is none */
     gis_sink_layer_request request; /* its list of fields is copied */
     char *name;                     /* name of the layer */
     char *file;                     /* base name of the layer's file, if it has one of its own; else NULL */
@@ -135,7 +136,7 @@ typedef enum gis_sink_place {
 
 struct gis_sink {
     gis_sink_request request;
-    const gis_source *source;
+    const gis_source *source; /* of the first main layer, or NULL */
     gis_format format;
     gis_sink_place place;
     bool to_stdout;
@@ -163,8 +164,17 @@ static inline bool gis_sink_tells(const gis_sink_layer *layer)
 
 /* Path of `file` in the stage or in memory, or the connection of a database; CPLFree(). */
 char *gis_sink_inside(const gis_sink *sink, const char *file);
+/* The sources of all main layers, by their numbers. */
+static inline const gis_source *gis_sink_source(const gis_sink *sink, size_t main)
+{
+    return main ? sink->request.more[main - 1].source : sink->source;
+}
+/* Does the file belong to one of the sources? */
+bool gis_sink_is_input(const gis_sink *sink, const char *path);
 /* Name of the layer with this suffix, and of its file in a one-layer format; CPLFree(). */
 char *gis_sink_name_for(const gis_sink *sink, const char *suffix);
+/* Name of a layer; what is like a source begins with the name of its main layer. CPLFree(). */
+char *gis_sink_name_of(const gis_sink *sink, const gis_sink_layer_request *request);
 char *gis_sink_file_for(const gis_sink *sink, const char *suffix);
 
 /* Does a file or directory with this path exist? The path may be any that GDAL knows. */
@@ -221,13 +231,13 @@ void gis_sink_find_losses(gis_sink_layer *layer, OGRLayerH as_written);
  * lets through, is left out: drivers refuse it, or write it as something that is not a number. */
 static inline bool gis_sink_holds(const gis_sink_layer *layer, OGRGeometryH geometry)
 {
-    return gis_source_content_count(layer->sink->source, GIS_BROKEN) == 0 || gis_geometry_is_finite(geometry);
+    return gis_source_content_count(layer->source, GIS_BROKEN) == 0 || gis_geometry_is_finite(geometry);
 }
 
 /* The CRS that the written layer should have. */
 static inline OGRSpatialReferenceH gis_sink_crs(const gis_sink_layer *layer)
 {
-    return layer->sink->source ? gis_source_crs(layer->sink->source) : layer->request.crs;
+    return layer->source ? gis_source_crs(layer->source) : layer->request.crs;
 }
 
 /* Fails if the CRS (.prj) or the encoding (.cpg) of a Shapefile is missing. They are in small files of their own, and

@@ -6,8 +6,8 @@ bool gis_sink_fail_count(const gis_sink_layer *layer, size_t read_back, gis_erro
 {
     const gis_sink *sink = layer->sink;
     bool some_empty =
-        layer->request.like_source && sink->source &&
-        gis_source_content_count(sink->source, GIS_NOTHING) + gis_source_content_count(sink->source, GIS_BROKEN) > 0;
+        layer->request.like_source && layer->source &&
+        gis_source_content_count(layer->source, GIS_NOTHING) + gis_source_content_count(layer->source, GIS_BROKEN) > 0;
     return gis_fail(error, "%s, layer %s: %zu features were written, but %zu read back%s", sink->request.path,
                     layer->name, layer->written, read_back,
                     sink->format.abilities & GIS_NEEDS_GEOMETRY ? "; the format drops features without geometry"

@@ -15,7 +15,17 @@ char *gis_sink_inside(const gis_sink *sink, const char *file)
 
 char *gis_sink_name_for(const gis_sink *sink, const char *suffix)
 {
-    return gis_printed("%s%s%s", sink->request.main_layer, suffix[0] ? "_" : "", suffix);
+    const char *prefix = sink->request.prefix;
+    return suffix[0] ? gis_printed("%s_%s", prefix ? prefix : sink->request.main_layer, suffix)
+                     : CPLStrdup(sink->request.main_layer);
+}
+
+char *gis_sink_name_of(const gis_sink *sink, const gis_sink_layer_request *request)
+{
+    const char *suffix = request->suffix,
+               *main = request->main ? sink->request.more[request->main - 1].name : sink->request.main_layer;
+    if (!request->like_source) return gis_sink_name_for(sink, suffix);
+    return gis_printed("%s%s%s", main, suffix[0] ? "_" : "", suffix);
 }
 
 static const char *double_ending(const char *name)

@@ -17,7 +17,7 @@
 
 static bool any_real_changed(const gis_sink_layer *layer)
 {
-    OGRFeatureDefnH source = layer->changes ? OGR_L_GetLayerDefn(gis_source_layer(layer->sink->source)) : NULL;
+    OGRFeatureDefnH source = layer->changes ? OGR_L_GetLayerDefn(gis_source_layer(layer->source)) : NULL;
     for (int i = 0; source && i < OGR_FD_GetFieldCount(source); i++)
         if (layer->changes[i].count && OGR_Fld_GetType(OGR_FD_GetFieldDefn(source, i)) == OFTReal) return true;
     return false;

@@ -32,7 +32,7 @@ enum { LINE_POINTS = 1 + 2 * sizeof(uint32_t), LINE_BYTES = LINE_POINTS + 4 * si
 static bool fields_are_plain(const gis_sink_layer *layer)
 {
     OGRFeatureDefnH to = OGR_L_GetLayerDefn(layer->layer);
-    const gis_source *source = layer->request.like_source ? layer->sink->source : NULL;
+    const gis_source *source = layer->request.like_source ? layer->source : NULL;
     OGRFeatureDefnH from = source ? OGR_L_GetLayerDefn(gis_source_layer(source)) : NULL;
     const int n = OGR_FD_GetFieldCount(to);
     if (layer->digests.n_fields != (size_t)n) return false; /* false if a field has another type, or a default */
@@ -211,14 +211,13 @@ static gis_row compose_row(gis_sink_layer *layer, size_t i, double dx, double dy
     size_t bytes;
     looking seen = {{INFINITY, -INFINITY, INFINITY, -INFINITY}, true};
     const unsigned char *wkb;
-    if (!gis_source_plain(layer->sink->source, i, dx, dy, layer->field_map, rows->value, &wkb, &bytes))
-        return GIS_ROW_GDAL;
+    if (!gis_source_plain(layer->source, i, dx, dy, layer->field_map, rows->value, &wkb, &bytes)) return GIS_ROW_GDAL;
     if (!wkb) return gis_no_memory(error), GIS_ROW_FAILED;
     gis_packed_visit(wkb, look_at_points, &seen);
     uint32_t type;
     memcpy(&type, wkb + 1, sizeof type);
     const OGRwkbGeometryType declared = OGR_L_GetGeomType(layer->layer);
-    if (!seen.plain || gis_source_fid(layer->sink->source, i) <= 0 || bytes > INT32_MAX / 2 ||
+    if (!seen.plain || gis_source_fid(layer->source, i) <= 0 || bytes > INT32_MAX / 2 ||
         (declared != wkbUnknown && (uint32_t)declared != type))
         return GIS_ROW_GDAL;
     for (size_t k = 0; k < layer->request.n_fields; k++) rows->value[layer->own[k]] = values[k];
@@ -307,7 +306,7 @@ gis_row gis_sink_row(gis_sink_layer *layer, size_t i, double dx, double dy, cons
     OGREnvelope box = {0};
     if (!may_compose(layer, false)) return GIS_ROW_GDAL;
     const gis_row row = compose_row(layer, i, dx, dy, values, &box, error);
-    return settle_row(layer, row, gis_source_fid(layer->sink->source, i), &box, error);
+    return settle_row(layer, row, gis_source_fid(layer->source, i), &box, error);
 }
 
 gis_row gis_sink_line(gis_sink_layer *layer, const double from[2], const double to[2], const gis_value *values,

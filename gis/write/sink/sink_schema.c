@@ -67,7 +67,7 @@ static bool identifier_taken(const gis_sink *sink, const char *identifier)
 
 static char **offer_texts(const gis_sink_layer *layer, char **options)
 {
-    OGRLayerH source = gis_source_layer(layer->sink->source);
+    OGRLayerH source = gis_source_layer(layer->source);
     const char *identifier = OGR_L_GetName(source);
     const char *own = GDALGetMetadataItem(source, "IDENTIFIER", NULL);
     /* An identifier that only repeats the table's name is not copied: identifiers are unique in a GeoPackage, and the
@@ -85,12 +85,12 @@ static char **offer_texts(const gis_sink_layer *layer, char **options)
 /* The number of features of the source with a coordinate that is not finite. */
 static size_t broken_features(const gis_sink_layer *layer)
 {
-    return gis_source_content_count(layer->sink->source, GIS_BROKEN);
+    return gis_source_content_count(layer->source, GIS_BROKEN);
 }
 
 static char **offer_source_names(const gis_sink_layer *layer, char **options)
 {
-    OGRLayerH source = gis_source_layer(layer->sink->source);
+    OGRLayerH source = gis_source_layer(layer->source);
     OGRFeatureDefnH definition = OGR_L_GetLayerDefn(source);
     char numbered[NUMBERED_SIZE];
     options = offer_option(layer, options, "FID", free_name(layer, OGR_L_GetFIDColumn(source), usual_fid, numbered));
@@ -120,7 +120,7 @@ static char **layer_options(const gis_sink_layer *layer)
 {
     gis_sink *sink = layer->sink;
     char **options = CSLDuplicate((CSLConstList)sink->request.layer_options), numbered[NUMBERED_SIZE];
-    if (layer->request.like_source && sink->source)
+    if (layer->request.like_source && layer->source)
         options = offer_source_names(layer, options);
     else {
         options = offer_option(layer, options, "FID", free_name(layer, NULL, usual_fid, numbered));
@@ -141,7 +141,7 @@ static char **layer_options(const gis_sink_layer *layer)
 static void copy_metadata(const gis_sink_layer *layer)
 {
     if (!layer->sink->format.geopackage) return;
-    char **all = CSLDuplicate(GDALGetMetadata(gis_source_layer(layer->sink->source), NULL));
+    char **all = CSLDuplicate(GDALGetMetadata(gis_source_layer(layer->source), NULL));
     const char *const set_otherwise[] = {"IDENTIFIER", "DESCRIPTION", "DBF_DATE_LAST_UPDATE"};
     for (size_t i = 0; i < sizeof set_otherwise / sizeof *set_otherwise; i++)
         all = CSLSetNameValue(all, set_otherwise[i], NULL);

@@ -39,7 +39,7 @@ static OGRwkbGeometryType type_of_content(const gis_source *source, OGRwkbGeomet
  * formats distinguish the two, so there the layer is declared as MultiPolygon, and every feature is written as one. */
 static bool means_both(const gis_sink_layer *layer, OGRwkbGeometryType type)
 {
-    const gis_source *source = layer->sink->source;
+    const gis_source *source = layer->source;
     if (!layer->request.as_source || layer->sink->format.shapefile || wkbFlatten(type) != wkbPolygon) return false;
     GDALDriverH driver = GDALGetDatasetDriver(gis_source_dataset(source));
     if (!driver || !EQUAL(GDALGetDescription(driver), "ESRI Shapefile")) return false;
@@ -50,9 +50,9 @@ void gis_sink_choose_type(gis_sink_layer *layer)
 {
     const gis_sink *sink = layer->sink;
     const bool promoted = sink->request.promote && !layer->request.suffix[0];
-    OGRwkbGeometryType type = layer->request.as_source ? gis_source_type(sink->source) : layer->request.type;
+    OGRwkbGeometryType type = layer->request.as_source ? gis_source_type(layer->source) : layer->request.type;
     if (layer->request.as_source && is_open(type) && (promoted || (sink->format.abilities & GIS_NEEDS_TYPE))) {
-        type = type_of_content(sink->source, type);
+        type = type_of_content(layer->source, type);
         layer->promote = promoted || !is_open(type);
     } else if (promoted || means_both(layer, type)) {
         const OGRwkbGeometryType several = OGR_GT_GetCollection(type);
@@ -80,11 +80,14 @@ bool gis_sink_check_type(const gis_sink *sink, gis_error *error)
     const unsigned lacks = sink->format.abilities;
     if (request->polygons && (lacks & GIS_HAS_NO_POLYGONS))
         return gis_fail(error, "%s: %s holds no polygons; write another format", request->path, sink->format.name);
-    if (!request->features || !(lacks & GIS_NEEDS_TYPE) || !is_open(gis_source_type(sink->source)) ||
-        !is_open(type_of_content(sink->source, gis_source_type(sink->source))))
-        return true;
-    return gis_fail(error,
-                    "%s: the layer %s holds geometries of several kinds, and a layer of %s can hold only one kind: "
-                    "select them with --where, or write another format",
-                    request->path, gis_source_name(sink->source), sink->format.name);
+    if (!request->features || !(lacks & GIS_NEEDS_TYPE)) return true;
+    for (size_t k = 0; k <= request->n_more; k++) {
+        const gis_source *source = gis_sink_source(sink, k);
+        if (is_open(gis_source_type(source)) && is_open(type_of_content(source, gis_source_type(source))))
+            return gis_fail(error,
+                            "%s: the layer %s holds geometries of several kinds, and a layer of %s can hold only one "
+                            "kind: select them with --where, or write another format",
+                            request->path, gis_source_name(source), sink->format.name);
+    }
+    return true;
 }

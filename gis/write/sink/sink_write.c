@@ -41,7 +41,7 @@ bool gis_sink_write_moved(gis_sink_layer *layer, OGRFeatureH feature, double dx,
 bool gis_sink_write_source(gis_sink_layer *layer, size_t i, double dx, double dy, const gis_value *values,
                            gis_error *error)
 {
-    const gis_source *source = layer->sink->source;
+    const gis_source *source = layer->source;
     if (layer->keep_sent) return gis_sink_write_moved(layer, gis_source_feature(source, i), dx, dy, values, error);
     if (!gis_go_on(error)) return false;
     const gis_row row = gis_sink_row(layer, i, dx, dy, values, error);
@@ -54,7 +54,7 @@ bool gis_sink_write_source(gis_sink_layer *layer, size_t i, double dx, double dy
 bool gis_sink_write_shaped(gis_sink_layer *layer, size_t i, OGRGeometryH geometry, const gis_value *values,
                            gis_error *error)
 {
-    const gis_source *source = layer->sink->source;
+    const gis_source *source = layer->source;
     if (!layer->keep_sent && !gis_sink_rows_flush(layer, error)) {
         OGR_G_DestroyGeometry(geometry);
         return false;

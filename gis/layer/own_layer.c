@@ -1,0 +1,21 @@
+/* own_layer.c: the layer that a feature belongs to, if several layers move together, and what layers are called. */
+#include "layer/layer_input.h"
+
+const gis_layer_input *gis_layer_own(const gis_layer_input *input, size_t *i)
+{
+    size_t k = input->parts;
+    if (k == 0) return input;
+    while (--k > 0 && input->part[k].first > *i) continue;
+    *i -= input->part[k].first;
+    return &input->part[k];
+}
+
+const char *gis_layer_name(const gis_layer_input *input)
+{
+    return input->request->name ? input->request->name : gis_source_name(input->source);
+}
+
+const char *gis_layer_title(const gis_layer_input *input)
+{
+    return input->parts ? input->request->title : gis_source_name(input->source);
+}
