@@ -155,3 +155,11 @@ bool gis_sheet_check_classes(const gis_sheet *sheet, gis_error *error)
     }
     return true;
 }
+
+void gis_sheet_lend_gaps(gis_sheet *sheet, gis_options *options)
+{
+    sheet->gaps.name = sheet->name;
+    sheet->gaps.rule = sheet->rule;
+    sheet->gaps.of_barrier = sheet->of_barrier;
+    if (sheet->gaps.rules) options->gap_classes = &sheet->gaps;
+}

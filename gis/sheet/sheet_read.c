@@ -118,14 +118,6 @@ static bool apply_sheet(gis_sheet *sheet, gis_options *options, gis_error *error
            apply_layers(sheet, options, error) && gis_sheet_check_classes(sheet, error);
 }
 
-void gis_sheet_lend_gaps(gis_sheet *sheet, gis_options *options)
-{
-    sheet->gaps.name = sheet->name;
-    sheet->gaps.rule = sheet->rule;
-    sheet->gaps.of_barrier = sheet->of_barrier;
-    if (sheet->gaps.rules) options->gap_classes = &sheet->gaps;
-}
-
 bool gis_sheet_apply(gis_options *options, gis_sheet *out, gis_error *error)
 {
     *out = (gis_sheet){.path = options->text[OPT_SPEC]};
