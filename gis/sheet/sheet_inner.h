@@ -48,8 +48,6 @@ bool gis_sheet_is_for_all(struct json_object *rule);
 /* Fails if a rule has a class that no layer has, unless a layer has its classes in a field. */
 bool gis_sheet_check_classes(const gis_sheet *sheet, gis_error *error);
 
-/* ---- sheet_read.c ------------------------------------------------------------------------------------------------ */
-
 /* Makes the options borrow the gaps by classes, once they are read. */
 void gis_sheet_lend_gaps(gis_sheet *sheet, gis_options *options);
 
