@@ -6,7 +6,7 @@
 
 #include "base/interrupt.h"
 
-/* Several layers that move together are main layers of the sink, each of which is begun before its first feature. */
+/* Layers that move together are main layers of the sink. Each is begun before its first feature. */
 typedef struct feature_writer {
     const gis_layer_input *input;
     gis_sink *sink;

@@ -21,7 +21,7 @@ typedef struct gis_layer_facts {
     OGRFieldType id_type;
     size_t invalid, null, other;
     size_t skipped;  /* number of features that conflict with nothing; they are not in the spool */
-    size_t aside;    /* number of these that are in GIS_SPOOL_ASIDE */
+    size_t aside;    /* number of skipped features that are in GIS_SPOOL_ASIDE */
     size_t enlarged; /* number of features made larger */
     size_t vertices; /* of all shapes after cleaning, as sunder_layer_summary counts them */
     double box[4];   /* of all features that may conflict; box[0] > box[2]: there are none */
