@@ -96,7 +96,8 @@ static sunder_status improve_clusters(sunder_i_solver *s, sunder_error *err)
     return sunder_i_solver_improve(s, err);
 }
 
-/* Examines the pairs that were given up one at a time; in each round one pair of each cluster is solved. */
+/* Examines the pairs that were given up one at a time; in each round one pair of each cluster is solved. A cluster of
+ * symbols that stand on houses gives up dozens of pairs, so that it needs as many rounds. */
 static sunder_status ask_one_by_one(sunder_i_solver *s, sunder_error *err)
 {
     const sunder_status status = cover_diagonals_for_proofs(s, err);
@@ -116,7 +117,7 @@ static const sunder_i_layer_stage seeking[] = {
     {"mark for retry", NULL, mark_for_retry, 1, 0, 0},
     {"retry", has_given_up, retry_pairs, 3, 4. / 7, 5. / 7},
     {"improve", sunder_i_solver_is_to_improve, improve_clusters, 3, 5. / 7, 1},
-    {"ask one by one", NULL, ask_one_by_one, 16, 6. / 7, 1},
+    {"ask one by one", NULL, ask_one_by_one, 64, 6. / 7, 1},
     {"fit exactly", NULL, fit_exactly, 1, 1, 1},
 };
 

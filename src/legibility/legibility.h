@@ -44,7 +44,7 @@ bool sunder_i_distance_below(sunder_i_lattice *lattice, sunder_i_big num, sunder
 
 /* ---- Measures ---------------------------------------------------------------------------------------------------- */
 
-/* The functions below set *found to whether the part is below the limit > 0, and then *out to what it has, and where. */
+/* The functions below set *found to whether the part is below the limit > 0, and then *out to what it has and where. */
 
 /* sizes.c; they fail with SUNDER_ENOMEM through the arena of the lattice. */
 void sunder_i_part_area(sunder_i_part_read *part, double limit, bool *found, sunder_illegible *out);
