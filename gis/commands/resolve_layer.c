@@ -310,6 +310,7 @@ static void set_traits(gis_layer_rules *rules, bool points)
     rules->joins_none = rules->core.no_blocks || (points && !rules->touch_tolerance.text);
     rules->may_jump = rules->core.allow_jumps || points;
     rules->in_no_row = !rules->core.rows;
+    rules->never_hidden = !rules->hide;
 }
 
 /* Sets what the core's options are for all layers together; `out` is the request for the first one. Rows are found if
@@ -324,6 +325,7 @@ static void unite_rules(gis_layer_input_request *out)
         set_traits(&with->rules, has_symbols(with));
         if (!polygons && !has_symbols(with)) polygons = with;
         if (with->rules.core.rows) rules->core.rows = SUNDER_ROWS_FOUND;
+        if (with->rules.hide && !rules->hide) rules->crossed = with->rules.crossed;
         rules->hide = rules->hide || with->rules.hide;
     }
     rules->core.no_blocks = rules->core.allow_jumps = false;

@@ -66,7 +66,7 @@ bool gis_layer_set_hiding(gis_layer_input *input, gis_error *error)
         size_t k = i;
         const gis_layer_input *own = gis_layer_own(input, &k);
         ok = gis_layer_check_class(own, k, error);
-        const bool may = ok && own->request->rules.hide && !input->feature[i].ignored;
+        const bool may = ok && !own->request->rules.never_hidden && !input->feature[i].ignored;
         cost[i] = may ? gis_layer_hiding_cost(own, k) : (sunder_hiding_cost){0, 1};
     }
     if (ok && sunder_layer_set_hiding(input->layer, cost, &why) != SUNDER_OK)

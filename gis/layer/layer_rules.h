@@ -27,7 +27,7 @@ typedef struct gis_layer_rules {
     const char *prefer_field[2]; /* the moves that features prefer, in x and y */
     gis_weighting weighting;
     /* Rules for the features of this layer if other layers move with it; then the core's options are those of all. */
-    bool joins_none, may_jump, in_no_row;
+    bool joins_none, may_jump, in_no_row, never_hidden;
     bool hide, drop_hidden; /* features may be left out; by the classes in this field, and this weight */
     bool trim; /* features may be cut back at barriers, but keep this share of their area, and a disc of this size */
     double trim_keep;

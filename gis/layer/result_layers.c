@@ -12,7 +12,6 @@ typedef struct feature_writer {
     gis_sink *sink;
     gis_sink_layer *layer;
     size_t begun; /* the number of main layers that are begun */
-    bool drop_hidden;
 } feature_writer;
 
 /* Begins main layers up to number `main`. */
@@ -29,7 +28,7 @@ static bool write_feature(void *user, size_t i, const gis_feature_row *row, gis_
 {
     feature_writer *w = user;
     const gis_layer_input *own = gis_layer_own(w->input, &i);
-    if (w->drop_hidden && row->status == SUNDER_FEATURE_HIDDEN) return true;
+    if (own->request->rules.drop_hidden && row->status == SUNDER_FEATURE_HIDDEN) return true;
     return (!w->input->parts || begin_mains(w, (size_t)(own - w->input->part), error)) &&
            gis_main_row(w->layer, i, row, error);
 }
@@ -62,7 +61,7 @@ static bool write_push(void *layer, const sunder_push *push, const gis_things *t
 
 static bool write_main(const gis_result *r, bool wanted, gis_sink *sink, gis_error *error)
 {
-    feature_writer w = {.input = r->input, .sink = sink, .drop_hidden = r->input->request->rules.drop_hidden};
+    feature_writer w = {.input = r->input, .sink = sink};
     if (!wanted) return r->kind->features(r, true, NULL, NULL, error);
     return begin_mains(&w, 0, error) && r->kind->features(r, gis_sink_has_null(w.layer), write_feature, &w, error) &&
            (!r->input->parts || begin_mains(&w, r->input->parts - 1, error));

@@ -68,6 +68,23 @@ grep -q 'has a layer marks already' err || fail "$(cat err)"
 expect 1 separate --spec sheet2.json together.shp -q --allow-conflicts
 grep -q 'holds one layer a file' err || fail "$(cat err)"
 
+# Only the layer that says so is hidden. In each of two layers two houses overlap, and can hardly move.
+for k in 0 1; do
+    printf 'WKT,name\n"POLYGON((%d00 0,%d10 0,%d10 10,%d00 10,%d00 0))",a\n"POLYGON((%d04 0,%d16 0,%d16 10,%d04 10,%d04 0))",b\n' \
+        $k $k $k $k $k $k $k $k $k $k | layer pair$k.gpkg pair$k POLYGON
+done
+cat >pairs.json <<'JSON'
+{"defaults": {"gap": 1, "max_shift": 0.1, "no_blocks": true, "contained": "separate"},
+ "layers": [{"name": "p0", "source": "pair0.gpkg", "role": "move"}, {"name": "p1", "source": "pair1.gpkg", "role": "move"}]}
+JSON
+for k in 0 1; do
+    jq ".layers[$k] += {hide: true, drop_hidden: true}" pairs.json >hides.json
+    expect 0 separate --spec hides.json hidden.gpkg --overwrite -q --allow-conflicts --stats stats.json
+    same "$(jq -c '[(.layers[] | select(.hidden) | .name), .hidden.count, .conflicts.after.overlap]' stats.json)" "[\"p$k\",1,1]" "hiding p$k:"
+    same "$(for of in p0 p1; do ogrinfo -so hidden.gpkg $of; done | grep -o 'Count: .*' | tr '\n' ' ')" \
+        "Count: $((k + 1)) Count: $((2 - k)) " "hiding p$k, features:"
+done
+
 # ---- One gap: the same bytes as the options
 cat >one.json <<'JSON'
 {"scale": "1:10000", // metres of the ground: 0.2 mm are 2 m
