@@ -186,7 +186,6 @@ static void print_counts(const check_run *run)
     putchar('\n');
 }
 
-/* The numbers of features, or parts of them, that are below a least size. */
 static bool is_asked_to_be_legible(const gis_legible *legible)
 {
     bool any = false;
@@ -194,6 +193,7 @@ static bool is_asked_to_be_legible(const gis_legible *legible)
     return any;
 }
 
+/* The numbers of features, or parts of them, that are below a least size. */
 static void print_legible(const gis_legible *legible)
 {
     const char *before = "legible: ";

@@ -63,7 +63,7 @@ sunder_status sunder_i_part_links(sunder_i_part_read *part, bool inside, double 
 bool sunder_i_link_clear(sunder_i_part_read *part, uint32_t v, uint32_t w, bool foot, sunder_i_point end,
                          sunder_i_list *near, bool *clear);
 /* Two antiparallel edges e, f that face each other over a part of their length: is a link between them clear? low and
- * high: the ends of that part, vertices of either. *at becomes a clear place along e, from 0 to 1 over the edge. */
+ * high: the ends of the part, vertices of either. *at becomes a clear place along e, from 0 to 1 over the edge. */
 bool sunder_i_links_clear(sunder_i_part_read *part, uint32_t e, uint32_t f, uint32_t low, uint32_t high,
                           sunder_i_list *near, bool *clear, double *at);
 

@@ -14,7 +14,7 @@
  * half a turn between the edges contains no such direction, as its angles to the two edges sum to less than that.
  * So a link leaves a reflex vertex into the interior, and a convex one to the outside, and needs no further test.
  *
- * Where the boundary touches itself, at a vertex, the length is 0: to either side of that point the part and the
+ * Where the boundary touches itself, at a vertex, the length is 0: to either side of the vertex the part and the
  * outside widen from nothing. The shape has vertices of its own on an edge that is touched from inside. */
 #include "legibility/legibility.h"
 
@@ -76,7 +76,7 @@ static void nearest_along(const search *s, uint32_t e, const double to[2], doubl
 
 /* The error of a distance of a vertex and an edge in doubles. Differences of coordinates and the four operations on
  * them have relative errors of at most 2^-53 each, and each number is at most twice the part's extent: fewer than 32
- * such errors of that size. Corners that are no doubles have an error of their own, by rounding. Numbers whose squares
+ * such errors of this size. Corners that are no doubles have an error of their own, by rounding. Numbers whose squares
  * are out of the range of doubles have no bound. */
 static double slack_of(const sunder_i_part_read *part)
 {

@@ -13,7 +13,7 @@ enum { BATCH = 8192 };
 typedef struct spooling {
     gis_barriers_writer *writer;
     const gis_barrier_request *request;
-    uint32_t gap_class; /* of the barriers of that request */
+    uint32_t gap_class; /* of the barriers of the request */
     size_t n;
 } spooling;
 

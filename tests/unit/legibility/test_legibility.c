@@ -46,7 +46,7 @@ static void is_tie(const sunder_shape *shape, sunder_illegible_kind kind, double
     assert_int_equal(below(shape, kind, 1e3 * value, &one), 1);
 }
 
-/* The shape has no link of that kind. */
+/* The shape has no link of this kind. */
 static void has_none(const sunder_shape *shape, sunder_illegible_kind kind)
 {
     assert_int_equal(below(shape, kind, 1e9, NULL), 0);
