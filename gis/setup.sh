@@ -39,6 +39,10 @@ setup_has_gdal() {
     command -v gdal-config && setup_has_header gdal.h $(gdal-config --cflags)
 }
 
+setup_has_python_headers() {
+    test -e "$(/usr/bin/python3 -c "import sysconfig; print(sysconfig.get_path('include'))")/Python.h"
+}
+
 setup_has_fuzzer() { # the compiler alone does not do: Debian has the runtime of the sanitizers in a package of its own
     local program status=0
     program=$(mktemp)

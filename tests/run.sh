@@ -29,6 +29,10 @@ setup_want "pkg-config" pkg-config pkg-config --version
 setup_want "the shell of SQLite" sqlite3 sqlite3 -version
 setup_want "valgrind" valgrind valgrind --version
 setup_want "jq" jq jq --version
+setup_want "Python's headers" python3-dev setup_has_python_headers
+setup_want "NumPy" python3-numpy /usr/bin/python3 -c "import numpy"
+setup_want "Shapely" python3-shapely /usr/bin/python3 -c "import shapely"
+setup_want "GeoPandas" python3-geopandas /usr/bin/python3 -c "import geopandas"
 setup_want "GDAL's Python module" python3-gdal /usr/bin/python3 -c "import osgeo.ogr"
 if [ "$all" ]; then
     setup_want "clang with sanitizers, for the fuzz tests" "clang libclang-rt-dev" setup_has_fuzzer

@@ -1,19 +1,15 @@
-/* gis_error.c: errors as sentences that functions return to their callers, and GDAL's reports, which are collected
- * instead of printed. */
+/* gis_error.c: errors as sentences that functions return to their callers; lists of sentences. */
 #include "base/gis_error.h"
 
 #include "base/array.h"
 #include "base/interrupt.h"
 
-#include <cpl_conv.h>
-#include <cpl_error.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Makes a message one line without blanks at its end; texts of GDAL and SQLite sometimes contain line breaks. */
-static void make_one_line(char *text)
+void gis_make_one_line(char *text)
 {
     size_t end = 0;
     for (size_t i = 0; text[i]; i++) {
@@ -33,7 +29,7 @@ static bool fail_with(gis_error *error, int exit_status, const char *format, va_
             snprintf(error->message, sizeof error->message, "%s", gis_interruption());
         else
             vsnprintf(error->message, sizeof error->message, format, arguments);
-        make_one_line(error->message);
+        gis_make_one_line(error->message);
     }
     return false;
 }
@@ -86,7 +82,7 @@ bool gis_sentences_add(gis_sentences *list, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    make_one_line(text);
+    gis_make_one_line(text);
     return add_text(list, text);
 }
 
@@ -95,36 +91,4 @@ void gis_sentences_clear(gis_sentences *list)
     for (size_t i = 0; i < list->n; i++) free(list->items[i]);
     free(list->items);
     *list = (gis_sentences){0};
-}
-
-/* A driver may repeat a warning for each feature; at most this number of different warnings is kept. */
-enum { WARNINGS_KEPT = 100 };
-
-static void CPL_STDCALL hear_message(CPLErr class, CPLErrorNum number, const char *text)
-{
-    (void)number;
-    gis_listener *listener = CPLGetErrorHandlerUserData();
-    if (class == CE_Warning) {
-        if (listener->warnings.n < WARNINGS_KEPT) gis_sentences_add(&listener->warnings, "%s", text);
-    } else if (class >= CE_Failure) {
-        if (listener->failures++ == 0) {
-            snprintf(listener->first, sizeof listener->first, "%s", text);
-            make_one_line(listener->first);
-        }
-    }
-}
-
-void gis_listen_begin(gis_listener *listener) { CPLPushErrorHandlerEx(hear_message, listener); }
-
-void gis_listen_end(void) { CPLPopErrorHandler(); }
-
-void gis_listener_clear(gis_listener *listener)
-{
-    gis_sentences_clear(&listener->warnings);
-    *listener = (gis_listener){0};
-}
-
-const char *gis_listener_reason(const gis_listener *listener, const char *otherwise)
-{
-    return listener->first[0] ? listener->first : otherwise;
 }

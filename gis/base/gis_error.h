@@ -31,6 +31,9 @@ bool gis_no_memory(gis_error *error);
 /* Returns true if this is the error of an interruption. */
 bool gis_is_interruption(const gis_error *error);
 
+/* Makes a message one line without blanks at its end; texts of GDAL and SQLite sometimes contain line breaks. */
+void gis_make_one_line(char *text);
+
 /* A list of distinct sentences in the order of their first appearance. A zeroed struct is an empty list. */
 typedef struct gis_sentences {
     char **items; /* n sentences; items[n] is not defined */

@@ -1,0 +1,148 @@
+"""Geometries as they come in and go out.
+
+In: well-known binary, objects with `wkb` or `__geo_interface__`, mappings as in GeoJSON, arrays. Out: geometries of
+Shapely if an operand was one, else `Geometry`, which Shapely, GeoPandas, Fiona and others take by its
+`__geo_interface__`.
+"""
+import struct
+import warnings
+from fractions import Fraction
+
+from sunder import _sunder
+
+
+class InvalidGeometryWarning(UserWarning):
+    """A polygon was invalid, and was taken by the even-odd rule or skipped."""
+
+
+class Geometry:
+    """A polygon or multipolygon, as well-known binary in `wkb`.
+
+    >>> square = Geometry.from_coordinates([[(0, 0), (2, 0), (2, 2), (0, 2)]])
+    >>> square.geom_type
+    'Polygon'
+    >>> square.__geo_interface__
+    {'type': 'Polygon', 'coordinates': (((0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0), (0.0, 0.0)),)}
+    """
+
+    __slots__ = ("wkb",)
+
+    def __init__(self, wkb):
+        self.wkb = bytes(wkb)
+
+    @classmethod
+    def from_coordinates(cls, rings):
+        """Makes a polygon of an outer ring and holes, each a sequence of (x, y)."""
+        return cls(_sunder.read(list(rings), "geometry", "fail").wkb(0))
+
+    @property
+    def __geo_interface__(self):
+        """The geometry as a mapping of GeoJSON; rings are closed."""
+        kind, coordinates, _ = _parse(self.wkb, 0)
+        return {"type": kind, "coordinates": coordinates}
+
+    @property
+    def geom_type(self):
+        """'Polygon' or 'MultiPolygon'."""
+        return self.__geo_interface__["type"]
+
+    @property
+    def is_empty(self):
+        """Whether there are no polygons."""
+        return not self.__geo_interface__["coordinates"]
+
+    def __eq__(self, other):
+        return isinstance(other, Geometry) and self.wkb == other.wkb
+
+    def __hash__(self):
+        return hash(self.wkb)
+
+    def __reduce__(self):
+        return Geometry, (self.wkb,)
+
+    def __repr__(self):
+        value = self.__geo_interface__
+        polygons = [value["coordinates"]] if value["type"] == "Polygon" else value["coordinates"]
+        vertices = sum(len(ring) - 1 for polygon in polygons for ring in polygon)
+        return f"<sunder.Geometry {value['type']}, {vertices} vertices>"
+
+
+def _parse(wkb, at):
+    """(type, coordinates, end) of a Polygon or MultiPolygon in two dimensions, as the extension writes it."""
+    order = "<" if wkb[at] == 1 else ">"
+    kind, count = struct.unpack_from(order + "II", wkb, at + 1)
+    at += 9
+    parts = []
+    for _ in range(count):
+        if kind == 6:
+            _, part, at = _parse(wkb, at)
+        else:
+            (n,) = struct.unpack_from(order + "I", wkb, at)
+            flat = struct.unpack_from(f"{order}{2 * n}d", wkb, at + 4)
+            part = tuple(zip(flat[::2], flat[1::2]))
+            at += 4 + 16 * n
+        parts.append(part)
+    return ("MultiPolygon" if kind == 6 else "Polygon"), tuple(parts), at
+
+
+def is_shapely(geometry):
+    """Whether an object is a geometry of Shapely, of any version, without importing it."""
+    return any(base.__module__.partition(".")[0] == "shapely" for base in type(geometry).__mro__)
+
+
+def make(wkb, like):
+    """A geometry of well-known binary: of Shapely if one of `like` is, else a Geometry."""
+    if any(is_shapely(one) for one in like):
+        import shapely.wkb  # an operand came from it, so it is there
+        return shapely.wkb.loads(wkb)
+    return Geometry(wkb)
+
+
+def _warn(made, who, numbered):
+    for number, reason, skipped in made.invalid():
+        name = f"{who} {number}" if numbered else who
+        what = "skipped" if skipped else "read as the region that its rings enclose by the even-odd rule"
+        warnings.warn(f"{name}: {reason}; {what}", InvalidGeometryWarning, stacklevel=4)
+    return made
+
+
+def shape(geometry, who, invalid="repair"):
+    """The Shapes of one geometry."""
+    if isinstance(geometry, _sunder.Shapes):
+        return geometry
+    return _warn(_sunder.read(geometry, who, invalid), who, False)
+
+
+def shapes(geometries, who="geometry", invalid="repair"):
+    """The Shapes of several geometries: a sequence, a GeoSeries or GeoDataFrame, or Shapes."""
+    if isinstance(geometries, _sunder.Shapes):
+        return geometries
+    return _warn(_sunder.read_all(column_of(geometries), who, invalid), who, True)
+
+
+def column_of(geometries):
+    """The geometries of a GeoDataFrame, a GeoSeries or an array of these as well-known binary; others unchanged."""
+    column = getattr(geometries, "geometry", None) if hasattr(geometries, "crs") else None
+    if column is None:
+        return geometries
+    return [None if one is None else one.wkb for one in column.values]
+
+
+def fraction(text):
+    """The Fraction of a text "num" or "num/den"."""
+    return Fraction(text)
+
+
+def rational(number):
+    """The text "num" or "num/den" of an int, a float or a Fraction; a float is the dyadic rational that it is."""
+    value = Fraction(number)
+    return f"{value.numerator}/{value.denominator}" if value.denominator != 1 else str(value.numerator)
+
+
+def array(view):
+    """A memoryview as an array of NumPy, without a copy, if NumPy is installed; else the memoryview."""
+    try:
+        import numpy
+    except ImportError:
+        return view
+    return numpy.asarray(view)

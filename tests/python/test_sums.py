@@ -1,0 +1,188 @@
+"""Sums, pairs and routes from Python: forms of input, exact cases, errors, and the examples in docstrings."""
+import array
+import doctest
+import importlib
+import pkgutil
+import struct
+import unittest
+from fractions import Fraction
+
+import sunder
+from support import SHARED, cases, main, module
+
+SQUARE = [(0, 0), (4, 0), (4, 4), (0, 4)]
+TRIANGLE = [(0, 0), (1, 0), (0, 1)]
+HOLE = [(1, 1), (1, 2), (2, 2), (2, 1)]
+
+
+def wkb(rings, order="<", kind=3, extra=(), srid=None):
+    """A polygon as well-known binary; `extra` are Z and M of each vertex."""
+    out = struct.pack(order + "BI", order == "<", kind)
+    if srid is not None:
+        out += struct.pack(order + "I", srid)
+    out += struct.pack(order + "I", len(rings))
+    for ring in rings:
+        closed = [*ring, ring[0]]
+        out += struct.pack(order + "I", len(closed))
+        for vertex in closed:
+            out += struct.pack(f"{order}{2 + len(extra)}d", *vertex, *extra)
+    return out
+
+
+class Holder:
+    """An object that has only one of the attributes of geometries."""
+
+    def __init__(self, **members):
+        self.__dict__.update(members)
+
+
+class Forms(unittest.TestCase):
+    """Each form of a polygon with a hole gives the same shape."""
+
+    def test_forms(self):
+        rings = [SQUARE, HOLE]
+        mapping = {"type": "Polygon", "coordinates": rings}
+        forms = {
+            "wkb": wkb(rings), "big-endian": wkb(rings, ">"), "iso z": wkb(rings, kind=1003, extra=(7,)),
+            "iso zm": wkb(rings, kind=3003, extra=(7, 8)), "ewkb": wkb(rings, kind=0x20000003, srid=4326),
+            "ewkb z": wkb(rings, ">", kind=0x80000003, extra=(float("nan"),)),
+            "bytearray": bytearray(wkb(rings)), "memoryview": memoryview(wkb(rings)),
+            "mapping": mapping, "feature": {"type": "Feature", "geometry": mapping},
+            "collection": {"type": "GeometryCollection", "geometries": [mapping]},
+            "multi": {"type": "MultiPolygon", "coordinates": [rings]},
+            "interface": Holder(__geo_interface__=mapping), "attribute": Holder(wkb=wkb(rings)),
+            "rings": rings, "tuples": tuple(map(tuple, rings)),
+            "views": [memoryview(array.array("d", [v for xy in ring for v in xy])).cast("B").cast("d", [len(ring), 2])
+                      for ring in rings],
+            "geometry": sunder.Geometry(wkb(rings)),
+        }
+        numpy = module("numpy")
+        if numpy:
+            forms["numpy"] = [numpy.array(SQUARE, float), numpy.array(HOLE, dtype=">f4")]
+            forms["integers"] = [numpy.array(SQUARE), numpy.array(HOLE, dtype="i2")]
+            forms["reversed"] = [numpy.array(SQUARE, float)[::-1], numpy.array(HOLE, float)[::-1]]
+            forms["columns"] = [numpy.asfortranarray(SQUARE), numpy.array([(*v, 9) for v in HOLE])]
+        shapely = module("shapely.geometry")
+        if shapely:
+            forms["shapely"] = shapely.Polygon(SQUARE, [HOLE])
+        for name, form in forms.items():
+            with self.subTest(name):
+                total = sunder.minkowski_sum(form, TRIANGLE, exact=True)
+                self.assertEqual(total.area, sunder.minkowski_sum(mapping, TRIANGLE).area)
+                self.assertEqual(total.polygons, sunder.minkowski_sum(mapping, TRIANGLE).polygons)
+                self.assertEqual(sunder.least_translation(form, TRIANGLE), sunder.least_translation(mapping, TRIANGLE))
+
+    def test_out(self):
+        total = sunder.minkowski_sum(SQUARE, TRIANGLE)
+        self.assertEqual(total.geometry, sunder.Geometry(total.wkb))
+        self.assertEqual(total.__geo_interface__["coordinates"][0][0], (0, 0))
+        shapely = module("shapely.geometry")
+        if not shapely:
+            self.skipTest("Shapely is not installed")
+        made = sunder.minkowski_sum(shapely.Polygon(SQUARE), TRIANGLE).geometry
+        self.assertEqual((made.geom_type, made.area, made.is_valid), ("Polygon", 24.5, True))
+        self.assertEqual(shapely.shape(total.geometry).area, 24.5)
+        self.assertEqual(shapely.shape(total).area, 24.5)
+
+
+class Cases(unittest.TestCase):
+    """The exact cases of ../shared."""
+
+    def test_cases(self):
+        found = list(cases())
+        if not found:
+            self.skipTest(f"{SHARED}/cases is not there")
+        self.assertGreaterEqual(len(found), 85)
+        for name, p, q, expected in found:
+            with self.subTest(name):
+                self.check(p, q, expected)
+
+    def check(self, p, q, expected):
+        total = sunder.minkowski_sum(p, q, exact=True)
+        self.assertEqual(total.area, Fraction(expected["area"]))
+        rings = sorted(sorted(ring) for polygon in total.polygons for ring in polygon)
+        wanted = sorted(sorted(pair(xy) for xy in ring["pts"]) for ring in expected["result_rings"] or [])
+        if expected["touch_vertices"] == 0 and wanted:
+            self.assertEqual(rings, wanted)
+        self.assertEqual(total.degenerate_points, sorted(pair(point) for point in expected["points"]))
+        self.assertEqual(total.degenerate_segments,
+                         sorted(tuple(sorted((pair(s["a"]), pair(s["b"])))) for s in expected["segments"]))
+        negated = sunder.no_fit_polygon(q, minus(p), exact=True)
+        self.assertEqual(negated.area, total.area)
+        self.assertEqual(negated.polygons, total.polygons)
+        # `mtv` is the least way out of the sum, so that of -q off p.
+        least = sunder.least_translation(p, minus(q), exact=True)
+        self.assertEqual(least.dx ** 2 + least.dy ** 2, Fraction(expected["mtv2"]))
+        self.assertEqual(sunder.overlap(p, minus(q)), expected["origin_inside_open_sum"])
+
+
+def pair(texts):
+    return Fraction(texts[0]), Fraction(texts[1])
+
+
+def minus(mapping):
+    """The reflection of a mapping in the origin."""
+    def turn(value):
+        return [-v for v in value] if isinstance(value[0], (int, float)) else [turn(v) for v in value]
+    return {"type": mapping["type"], "coordinates": turn(mapping["coordinates"])}
+
+
+class Errors(unittest.TestCase):
+    """Errors name the geometry and the cause."""
+
+    def test_messages(self):
+        bow = [(0, 0), (2, 2), (2, 0), (0, 2)]
+        for geometry, what in [
+                (b"\x01\x03\x00", "a: its well-known binary ends too early"),
+                (b"\x07" + b"\x00" * 20, "byte order is 7"), ("POINT", "a: a text"), (7, "a: not a geometry"),
+                ({"type": "Nothing"}, "a: a mapping of the type Nothing"), ({}, "a: a mapping without a type"),
+                ([[(0, 0), (1, "x"), (1, 1)]], "a: a coordinate is not a number"), ([], "a: an empty sequence"),
+                ([(0, 0), (float("nan"), 1), (1, 1)], "a: polygon 0, ring 0, vertex 1"), (None, "a: no polygons"),
+                ({"type": "Point", "coordinates": (1, 2)}, "a: no polygons")]:
+            with self.subTest(what):
+                self.assertRaisesRegex(ValueError, what, sunder.minkowski_sum, geometry, SQUARE)
+        self.assertRaisesRegex(ValueError, "a: polygon 0, ring 0.*crosses", sunder.minkowski_sum, bow, SQUARE,
+                               invalid="fail")
+        with self.assertWarnsRegex(sunder.InvalidGeometryWarning, "^a: polygon 0.*even-odd"):
+            repaired = sunder.minkowski_sum(bow, TRIANGLE)
+        self.assertEqual(repaired.polygons, sunder.minkowski_sum(
+            {"type": "MultiPolygon", "coordinates": [[[(0, 0), (1, 1), (0, 2)]], [[(2, 0), (2, 2), (1, 1)]]]},
+            TRIANGLE).polygons)
+        self.assertRaisesRegex(ValueError, "b 1: polygon 0", sunder.least_translations, [SQUARE], [SQUARE, [(0, 0)]],
+                               invalid="fail")
+        self.assertRaisesRegex(ValueError, "gap", sunder.least_translation, SQUARE, SQUARE, -1)
+        self.assertRaisesRegex(ValueError, "invalid", sunder.minkowski_sum, SQUARE, SQUARE, invalid="mend")
+        self.assertRaisesRegex(ValueError, "start", sunder.route, [SQUARE], TRIANGLE, (0,), (9, 9))
+        self.assertRaisesRegex(sunder.Error, "range of doubles",
+                               lambda: sunder.minkowski_sum([(0, 0), (1.7e308, 0), (0, 1.7e308)],
+                                                            [(0, 0), (1.7e308, 0), (0, 1.7e308)]).geometry)
+
+    def test_callback(self):
+        big = sunder.disc(3, 4000)
+        star = [(x * (2 if k % 2 else 1), y * (2 if k % 2 else 1)) for k, (x, y) in enumerate(
+            sunder.Geometry(sunder.disc(3, 600).wkb(0)).__geo_interface__["coordinates"][0][:-1])]
+
+        def stop(_):
+            raise LookupError("enough")
+        self.assertRaisesRegex(LookupError, "enough", sunder.erode, big, star, threads=2, progress=stop)
+        self.assertRaisesRegex(ValueError, "progress", sunder.minkowski_sum, SQUARE, SQUARE, progress=3)
+
+
+class Examples(unittest.TestCase):
+    """The examples in docstrings."""
+
+    def test_docstrings(self):
+        tried = 0
+        for one in pkgutil.iter_modules(sunder.__path__):
+            if one.name == "_sunder":
+                continue
+            result = doctest.testmod(importlib.import_module(f"sunder.{one.name}"), extraglobs=vars(sunder))
+            self.assertEqual(result.failed, 0)
+            tried += result.attempted
+        self.assertGreater(tried, 20)
+        for name in sunder.__all__:
+            self.assertTrue(getattr(sunder, name).__doc__, name)
+
+
+if __name__ == "__main__":
+    main()
