@@ -23,6 +23,15 @@ static inline void gis_box_join(double box[4], const double other[4])
     }
 }
 
+/* Sets `out` to the box enlarged by `by` on all sides, rounded outward by more than the error of the sums. */
+static inline void gis_box_grow(const double box[4], double by, double out[4])
+{
+    for (int k = 0; k < 4; k++) {
+        const double to = k < 2 ? -INFINITY : INFINITY;
+        out[k] = nextafter(nextafter(box[k] + (k < 2 ? -by : by), to), to);
+    }
+}
+
 /* Do the boxes have a point in common? */
 static inline bool gis_box_meets(const double a[4], const double b[4])
 {

@@ -122,7 +122,7 @@ bool gis_py_features_add_all(gis_py_features *to, PyObject *geometries, const ch
     for (size_t i = 0; done && (item = PyIter_Next(each)); i++) {
         char one[100];
         snprintf(one, sizeof one, "%s %zu", who, i);
-        done = gis_py_features_add(to, item, one);
+        done = (i % 256 != 0 || PyErr_CheckSignals() == 0) && gis_py_features_add(to, item, one);
         Py_DECREF(item);
     }
     Py_DECREF(each);

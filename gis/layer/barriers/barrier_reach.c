@@ -6,6 +6,7 @@
 #include "layer/barriers/barrier.h"
 
 #include "base/interrupt.h"
+#include "geometry/gis_box.h"
 #include "read/fields.h"
 
 #include <cpl_conv.h>
@@ -182,21 +183,12 @@ void gis_barrier_targets_free(gis_barrier_targets *targets)
     free(targets);
 }
 
-/* Enlarges a box by `by` on all sides, rounded outward by more than the error of the sums. */
-static void grow_box(const double box[4], double by, double out[4])
-{
-    for (int k = 0; k < 4; k++) {
-        const double to = k < 2 ? -INFINITY : INFINITY;
-        out[k] = nextafter(nextafter(box[k] + (k < 2 ? -by : by), to), to);
-    }
-}
-
 bool gis_barrier_is_near(const gis_barrier_surroundings *around, const double box[4], double distance)
 {
     double grown[4];
     int n = 0;
     if (!around->targets->tree) return false;
-    grow_box(box, around->reach + distance, grown);
+    gis_box_grow(box, around->reach + distance, grown);
     if (!isfinite(around->reach + distance)) return true;
     const CPLRectObj asked = {grown[0], grown[1], grown[2], grown[3]};
     looked_up *cells = around->targets->cells;
@@ -216,7 +208,7 @@ bool gis_barrier_reach_box(const gis_barrier_surroundings *around, double distan
     double all[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY};
     for (size_t i = 0; i < targets->n; i++)
         for (int k = 0; k < 4; k++) all[k] = (k < 2 ? fmin : fmax)(all[k], targets->box[i][k]);
-    grow_box(all, around->reach + distance, box);
+    gis_box_grow(all, around->reach + distance, box);
     return isfinite(around->reach + distance);
 }
 
