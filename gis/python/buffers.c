@@ -108,6 +108,17 @@ static bool open_buffer(PyObject *object, const char *who, Py_buffer *view, stor
     return false;
 }
 
+/* Frees an array that a caller will not get; always false. */
+static bool drop(void *array)
+{
+    void *memory;
+    memcpy(&memory, array, sizeof memory);
+    free(memory);
+    memory = NULL;
+    memcpy(array, &memory, sizeof memory);
+    return false;
+}
+
 static void *allocate(size_t n, size_t size)
 {
     void *memory = n < SIZE_MAX / size ? malloc((n + 1) * size) : NULL;
@@ -145,8 +156,7 @@ bool gis_py_coordinates(PyObject *object, const char *who, bool flat, double **x
     *xy = done ? allocate(*n, 2 * sizeof **xy) : NULL;
     done = *xy && copy_rows(&view, &how, who, *n, *xy);
     PyBuffer_Release(&view);
-    if (!done) free(*xy);
-    return done;
+    return done || drop(xy);
 }
 
 /* ---- Numbers from buffers and sequences -------------------------------------------------------------------------- */
@@ -230,8 +240,7 @@ bool gis_py_doubles(PyObject *object, const char *who, size_t n, double **out, s
         done = next_number(&from, who, i, false, &e) && to_double(&e, who, i, &(*out)[i]);
     }
     close_numbers(&from);
-    if (!done) free(*out);
-    return done;
+    return done || drop(out);
 }
 
 bool gis_py_integers(PyObject *object, const char *who, size_t n, int64_t **out, size_t *count)
@@ -248,6 +257,5 @@ bool gis_py_integers(PyObject *object, const char *who, size_t n, int64_t **out,
         if (done) (*out)[i] = e.integer;
     }
     close_numbers(&from);
-    if (!done) free(*out);
-    return done;
+    return done || drop(out);
 }

@@ -143,6 +143,7 @@ static bool read_offsets(PyObject *object, const char *who, size_t most, int64_t
                                 (long long)(*ends)[i - 1], most);
     if (!done) {
         free(*ends);
+        *ends = NULL;
         return false;
     }
     (*n)--;
