@@ -4,6 +4,7 @@
 #include "base/exit_status.h"
 
 #include <math.h>
+#include <stdio.h>
 
 void gis_json_seconds(gis_json *out, const char *key, double seconds)
 {
@@ -40,6 +41,25 @@ void gis_json_sheet(gis_json *out, const gis_options *options)
     if (!options->sheet) return;
     gis_json_key(out, "spec");
     gis_json_raw(out, options->sheet);
+}
+
+void gis_json_follow(gis_json *out, const gis_follow *follow)
+{
+    gis_json_put_size(out, "features", gis_source_count(follow->input));
+    for (gis_follow_status s = 0; s < GIS_FOLLOW_STATUSES; s++)
+        gis_json_put_size(out, gis_follow_status_string(s), follow->count[s]);
+    gis_json_put_size(out, "torn", follow->torn);
+}
+
+void gis_print_follow(const gis_follow *follow)
+{
+    printf("%s: %zu features", gis_follow_name(follow), gis_source_count(follow->input));
+    for (gis_follow_status s = 0; s < GIS_FOLLOW_STATUSES; s++)
+        printf("%s %s %zu", s ? "," : ":", gis_follow_status_string(s), follow->count[s]);
+    printf("\n");
+    if (follow->torn)
+        printf("%zu vertices that features of %s shared are at several places now\n", follow->torn,
+               gis_follow_name(follow));
 }
 
 bool gis_any_conflict(const sunder_conflict_counts *counts)

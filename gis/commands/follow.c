@@ -16,6 +16,7 @@ typedef struct follow_run {
     gis_destinations to;
     gis_follow_request request;
     gis_follow follow;
+    gis_follow_targets targets;
     gis_sink *sink;
     gis_progress progress;
 } follow_run;
@@ -23,18 +24,11 @@ typedef struct follow_run {
 static bool read_layers(follow_run *run, gis_error *error)
 {
     gis_follow *f = &run->follow;
-    gis_source_request input = run->request.input;
     f->request = &run->request;
-    input.takes = GIS_TAKES_POLYGONS | GIS_TAKES_LINES | GIS_TAKES_POINTS;
-    input.not_finite = gis_invalid_not_finite(run->request.invalid, GIS_NOT_FINITE_LEFT_OUT);
-    if (!gis_follow_read_moved(&run->request, &f->targets, error) || !gis_source_open(&input, &f->input, error))
-        return false;
-    gis_say_warnings(GIS_MESSAGE_INPUT, gis_source_warnings(f->input));
-    OGRSpatialReferenceH crs = gis_source_crs(f->input);
-    if (!gis_crs_may_be_same(crs, gis_source_crs(f->targets.source)))
-        return gis_fail(error, "INPUT and MOVED are in different CRSs; reproject one of them");
-    const gis_crs_units units = gis_crs_units_of(crs, run->request.scale);
-    return gis_optional_length_in_layer_units(&run->request.within, &units, "--by nearest", &f->within, error);
+    f->targets = &run->targets;
+    if (!gis_follow_read_moved(f, &run->targets, error) || !gis_follow_open(&run->request, f, error)) return false;
+    return gis_crs_may_be_same(gis_source_crs(f->input), gis_source_crs(f->moved)) ||
+           gis_fail(error, "INPUT and MOVED are in different CRSs; reproject one of them");
 }
 
 /* Opens the output before the work, so that an output that must be refused is refused at once. */
@@ -42,38 +36,27 @@ static bool open_sink(follow_run *run, gis_error *error)
 {
     gis_sink_request request = gis_resolve_sink(run->options, run->to.output, gis_source_name(run->follow.input));
     request.features = true;
-    return gis_source_spare(run->follow.targets.source, request.path, request.update, error) &&
+    return gis_source_spare(run->follow.moved, request.path, request.update, error) &&
            gis_sink_open(&request, run->follow.input, &run->sink, error);
-}
-
-static void json_follow(gis_json *out, const gis_follow *f)
-{
-    gis_json_open(out, '{');
-    gis_json_put_string(out, "command", "follow");
-    gis_json_put_size(out, "features", gis_source_count(f->input));
-    for (gis_follow_status s = 0; s < GIS_FOLLOW_STATUSES; s++)
-        gis_json_put_size(out, gis_follow_status_string(s), f->count[s]);
-    gis_json_put_size(out, "torn", f->torn);
-    gis_json_close(out, '}');
-    gis_json_raw(out, "\n");
 }
 
 static bool print_summary(const void *made, gis_error *error)
 {
-    const gis_follow *f = made;
     (void)error; /* an error of stdio is found when stdout is flushed */
-    printf("%s: %zu features", gis_source_name(f->input), gis_source_count(f->input));
-    for (gis_follow_status s = 0; s < GIS_FOLLOW_STATUSES; s++)
-        printf("%s %s %zu", s ? "," : ":", gis_follow_status_string(s), f->count[s]);
-    printf("\n");
-    if (f->torn) printf("%zu vertices that features shared are at several places now\n", f->torn);
+    gis_print_follow(made);
     return true;
 }
 
 static bool deliver_follow(const follow_run *run, bool taken, gis_error *error)
 {
     gis_json stats = {0};
-    if (run->to.stats) json_follow(&stats, &run->follow);
+    if (run->to.stats) {
+        gis_json_open(&stats, '{');
+        gis_json_put_string(&stats, "command", "follow");
+        gis_json_follow(&stats, &run->follow);
+        gis_json_close(&stats, '}');
+        gis_json_raw(&stats, "\n");
+    }
     const gis_delivery delivery = {.to = &run->to,
                                    .sink = run->sink,
                                    .stats = &stats,
@@ -91,7 +74,8 @@ static bool attach_and_write(follow_run *run, gis_error *error)
     gis_progress_stage(&run->progress, GIS_FOLLOW_READ, GIS_FOLLOW_ATTACHED);
     if (!open_sink(run, error) || !gis_follow_attach(&run->follow, &run->progress, error)) return false;
     gis_progress_stage(&run->progress, GIS_FOLLOW_ATTACHED, 1);
-    if (!gis_follow_write(run->sink, &run->follow, error) || !gis_sink_finish(run->sink, &result, error)) return false;
+    if (!gis_follow_write(run->sink, 0, &run->follow, error) || !gis_sink_finish(run->sink, &result, error))
+        return false;
     gis_progress_done(&run->progress);
     return true;
 }
@@ -105,12 +89,11 @@ int gis_command_follow(const gis_options *options)
         ok = gis_resolve_follow(options, &run.request, &error) && gis_destinations_check(&run.to, &taken, &error);
     gis_progress_stage(&run.progress, 0, GIS_FOLLOW_READ);
     ok = ok && read_layers(&run, &error) && gis_destinations_spare(&run.to, run.follow.input, &error) &&
-         gis_destinations_spare(&run.to, run.follow.targets.source, &error) && attach_and_write(&run, &error) &&
+         gis_destinations_spare(&run.to, run.follow.moved, &error) && attach_and_write(&run, &error) &&
          deliver_follow(&run, taken, &error);
     int status = ok ? GIS_DONE : gis_say_failure(&error);
     gis_sink_free(run.sink);
-    free(run.follow.place);
-    gis_source_close(run.follow.input);
-    gis_follow_targets_clear(&run.follow.targets);
+    gis_follow_clear(&run.follow);
+    gis_follow_targets_clear(&run.targets);
     return status;
 }

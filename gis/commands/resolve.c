@@ -146,11 +146,11 @@ bool gis_resolve_route(const gis_options *options, gis_route_request *out, gis_e
 }
 
 /* Parses the text of --by: a word, or a word, a colon and a value. */
-static bool resolve_by(const gis_options *options, gis_follow_request *out, gis_error *error)
+static bool resolve_by(const char *text, gis_follow_request *out, gis_error *error)
 {
     static const char nearest[] = "nearest:", field[] = "field:";
-    const char *text = options->given[OPT_BY] ? options->text[OPT_BY] : "inside", *why;
-    if (strcmp(text, "inside") == 0) return true;
+    const char *why;
+    if (!text || strcmp(text, "inside") == 0) return true;
     if (strncmp(text, nearest, strlen(nearest)) == 0) {
         out->by = GIS_FOLLOW_NEAREST;
         out->within.text = text + strlen(nearest);
@@ -173,9 +173,26 @@ bool gis_resolve_follow(const gis_options *options, gis_follow_request *out, gis
         .id_field = options->text[OPT_ID_FIELD],
         .scale = options->number[OPT_SCALE],
     };
-    if (!resolve_by(options, out, error)) return false;
+    if (!resolve_by(options->text[OPT_BY], out, error)) return false;
     if (out->id_field && out->by != GIS_FOLLOW_FIELD)
         return gis_fail_usage(error, "--id-field: the field of MOVED that --by field:NAME names; give that, too");
+    return gis_resolve_invalid(options, &out->invalid, error);
+}
+
+bool gis_resolve_along(const gis_options *options, const gis_along *along, gis_follow_request *out, gis_error *error)
+{
+    const char *name = along->name ? along->name : along->source;
+    gis_error why;
+    *out = (gis_follow_request){
+        .input = {.path = along->source, .layer = along->layer, .where = along->where, .input_crs = along->crs},
+        .name = along->name,
+        .of = along->of,
+        .id_field = along->id_field,
+        .scale = options->number[OPT_SCALE],
+    };
+    if (!resolve_by(along->by, out, &why)) return gis_fail_usage(error, "--spec: layer %s: %s", name, why.message);
+    if (out->id_field && out->by != GIS_FOLLOW_FIELD)
+        return gis_fail_usage(error, "--spec: layer %s: id_field without \"by\": \"field:NAME\"", name);
     return gis_resolve_invalid(options, &out->invalid, error);
 }
 

@@ -36,6 +36,8 @@ bool gis_resolve_route(const gis_options *options, gis_route_request *out, gis_e
 
 /* Follow: its request. */
 bool gis_resolve_follow(const gis_options *options, gis_follow_request *out, gis_error *error);
+/* Separate: the request of a layer that goes along. */
+bool gis_resolve_along(const gis_options *options, const gis_along *along, gis_follow_request *out, gis_error *error);
 
 /* *bytes becomes the size of --max-memory in bytes; 0 if it was not given. */
 bool gis_resolve_memory(const gis_options *options, double *bytes, gis_error *error);

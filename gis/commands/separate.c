@@ -84,6 +84,7 @@ int gis_separate_end(gis_separate_run *run, bool done, const gis_error *error)
     gis_trace_clear(&run->trace);
     gis_sink_free(run->sink);
     free(run->more);
+    gis_separate_clear_along(&run->along);
     sunder_report_free(run->report);
     gis_layer_input_clear(&run->input);
     gis_shard_run_clear(&run->parts);
@@ -104,6 +105,7 @@ int gis_command_separate(const gis_options *options)
         ok = gis_fail_usage(&error, "--trace needs the whole layer in memory; leave out --max-memory");
     ok =
         ok && (in_parts ? read_in_parts(&run, memory, &error) : read_whole(&run, &error)) && spare_inputs(&run, &error);
+    ok = ok && gis_separate_read_along(&run, &error);
     run.read = gis_clock() - run.start;
     ok = ok && (in_parts ? separate_in_parts(&run, &error) : separate_whole(&run, &error)) &&
          gis_separate_deliver(&run, &error);

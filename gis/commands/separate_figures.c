@@ -212,6 +212,21 @@ static void json_layers(gis_json *out, const gis_separate_run *run)
     gis_json_line(out);
 }
 
+/* The layers that went along. */
+static void json_along(gis_json *out, const gis_separate_run *run)
+{
+    gis_json_key(out, "follow");
+    gis_json_open(out, '[');
+    for (size_t k = 0; k < run->along.n; k++) {
+        gis_json_open(out, '{');
+        gis_json_put_string(out, "name", gis_follow_name(&run->along.follow[k]));
+        gis_json_follow(out, &run->along.follow[k]);
+        gis_json_close(out, '}');
+    }
+    gis_json_close(out, ']');
+    gis_json_line(out);
+}
+
 void gis_separate_stats(gis_json *out, const gis_separate_run *run)
 {
     const sunder_layer_summary *summary = &run->summary;
@@ -226,6 +241,7 @@ void gis_separate_stats(gis_json *out, const gis_separate_run *run)
     gis_json_put_size(out, "clusters_optimal", summary->clusters_optimal);
     gis_json_line(out);
     if (run->input.parts) json_layers(out, run);
+    if (run->along.n) json_along(out, run);
     gis_json_key(out, "conflicts");
     gis_json_open(out, '{');
     gis_json_key(out, "before");
@@ -401,6 +417,7 @@ bool gis_separate_print(const void *separated, gis_error *error)
     print_rows(run);
     print_shortfall(run);
     print_hidden(run);
+    for (size_t k = 0; k < run->along.n; k++) gis_print_follow(&run->along.follow[k]);
     if (gis_any_conflict(&summary->after) && (run->chosen & GIS_SEPARATE_CONFLICTS))
         printf("the remaining conflicts are listed with their reasons in %s_conflicts\n",
                gis_resolve_sink(run->options, NULL, gis_layer_title(&run->input)).main_layer);

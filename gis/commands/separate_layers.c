@@ -30,18 +30,23 @@ bool gis_separate_choose_layers(const char *list, const gis_layer_rules *rules, 
     return *chosen || gis_fail_usage(error, "--layers %s: none of these applies to this input", list);
 }
 
-/* If several layers move, names the main layer of each. */
+/* Names the main layer of each layer that moves, if there are several, and of each that goes along. */
 static bool name_mains(gis_separate_run *run, gis_sink_request *request, gis_error *error)
 {
     const gis_layer_input *input = &run->input;
-    if (!input->parts) return true;
-    run->more = malloc(input->parts * sizeof *run->more);
+    const size_t along = run->chosen & GIS_SEPARATE_MAIN ? run->along.n : 0;
+    if (!input->parts && !along) return true;
+    free(run->more);
+    run->more = malloc((input->parts + along) * sizeof *run->more);
     if (!run->more) return gis_no_memory(error);
     for (size_t k = 1; k < input->parts; k++)
-        run->more[k - 1] = (gis_sink_main){input->part[k].source, gis_layer_name(&input->part[k])};
-    request->main_layer = gis_layer_name(&input->part[0]);
+        run->more[request->n_more++] = (gis_sink_main){input->part[k].source, gis_layer_name(&input->part[k])};
+    for (size_t k = 0; k < along; k++)
+        run->more[request->n_more++] =
+            (gis_sink_main){run->along.follow[k].input, gis_follow_name(&run->along.follow[k])};
     request->more = run->more;
-    request->n_more = input->parts - 1;
+    if (!input->parts) return true;
+    request->main_layer = gis_layer_name(&input->part[0]);
     request->prefix = run->options->sheet_name;
     return true;
 }
@@ -92,15 +97,21 @@ bool gis_separate_open_sink(gis_separate_run *run, gis_error *error)
 
 bool gis_separate_write_layers(gis_separate_run *run, gis_error *error)
 {
-    const gis_result_layers layers = {
-        (run->chosen & GIS_SEPARATE_MAIN) != 0,      (run->chosen & GIS_SEPARATE_DISPLACEMENT) != 0,
-        (run->chosen & GIS_SEPARATE_CONFLICTS) != 0, (run->chosen & GIS_SEPARATE_PUSHES) != 0,
-        (run->chosen & GIS_SEPARATE_ROWS) != 0,      (run->chosen & GIS_SEPARATE_SYMBOLS) != 0,
-        (run->chosen & GIS_SEPARATE_HIDDEN) != 0};
+    gis_result_layers layers = {(run->chosen & GIS_SEPARATE_MAIN) != 0,
+                                (run->chosen & GIS_SEPARATE_DISPLACEMENT) != 0,
+                                (run->chosen & GIS_SEPARATE_CONFLICTS) != 0,
+                                (run->chosen & GIS_SEPARATE_PUSHES) != 0,
+                                (run->chosen & GIS_SEPARATE_ROWS) != 0,
+                                (run->chosen & GIS_SEPARATE_SYMBOLS) != 0,
+                                (run->chosen & GIS_SEPARATE_HIDDEN) != 0,
+                                NULL,
+                                NULL};
     gis_sink_result written;
     gis_progress_stage(&run->progress, GIS_SEPARATE_DONE, 1);
     const double begin = gis_clock();
-    if (!gis_result_write(&run->result, &layers, run->sink, error) || !gis_sink_finish(run->sink, &written, error))
+    gis_separate_watch(run, &layers);
+    if (!gis_result_write(&run->result, &layers, run->sink, error) || !gis_separate_write_along(run, error) ||
+        !gis_sink_finish(run->sink, &written, error))
         return false;
     run->write = gis_clock() - begin;
     run->verified = run->summary.verified && written.exact;

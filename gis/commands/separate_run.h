@@ -4,6 +4,7 @@
 #define GIS_SEPARATE_RUN_H
 
 #include "base/json.h"
+#include "follow/follow.h"
 #include "layer/result.h"
 #include "layer/trace_file.h"
 #include "options/options.h"
@@ -22,6 +23,14 @@ enum {
     GIS_SEPARATE_LAYERS = 7
 };
 
+/* Layers that go along with what moves. */
+typedef struct gis_separate_along {
+    gis_follow_request *request; /* [n] */
+    gis_follow *follow;          /* [n] */
+    size_t n;
+    gis_follow_targets targets; /* what moved */
+} gis_separate_along;
+
 typedef struct gis_separate_run {
     const gis_options *options;
     gis_destinations to;
@@ -29,7 +38,8 @@ typedef struct gis_separate_run {
     gis_layer_input input;
     const char *suffixes[GIS_SEPARATE_LAYERS]; /* the suffixes of the layers besides the main one, NULL-terminated; the
                                                 * sink borrows the array */
-    gis_sink_main *more; /* the main layers besides the first; the sink borrows the array */
+    gis_sink_main *more;                       /* the main layers besides the first; the sink borrows the array */
+    gis_separate_along along;
     gis_sink *sink;
     sunder_report *report;
     sunder_layer_summary summary;
@@ -66,6 +76,16 @@ bool gis_separate_choose_layers(const char *list, const gis_layer_rules *rules, 
 bool gis_separate_open_sink(gis_separate_run *run, gis_error *error);
 /* Writes the layers of run->result; only gis_deliver(), which puts the files in place, is left to do. */
 bool gis_separate_write_layers(gis_separate_run *run, gis_error *error);
+
+/* ---- separate_along.c: layers that go along ---------------------------------------------------------------------- */
+
+/* Reads these layers, once those that move are read. */
+bool gis_separate_read_along(gis_separate_run *run, gis_error *error);
+/* Has the targets noted as the main layers are written. */
+void gis_separate_watch(gis_separate_run *run, gis_result_layers *layers);
+/* Writes the layers, once all others are written. */
+bool gis_separate_write_along(gis_separate_run *run, gis_error *error);
+void gis_separate_clear_along(gis_separate_along *along);
 
 /* ---- separate_in_parts.c: a layer in parts on disk --------------------------------------------------------------- */
 

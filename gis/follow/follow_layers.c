@@ -1,5 +1,5 @@
-/* follow_layers.c: writes INPUT with its features at their new places, and what became of each. */
-#include "follow/follow.h"
+/* follow_layers.c: writes the layer with its features at their new places, and what became of each. */
+#include "follow/follow_inner.h"
 
 #include "base/interrupt.h"
 
@@ -79,7 +79,7 @@ static bool carry_vertex(void *user, double xy[2], gis_error *error)
 {
     carrying *c = user;
     double to[2] = {xy[0], xy[1]};
-    const gis_follow_targets *targets = &c->follow->targets;
+    const gis_follow_targets *targets = c->follow->targets;
     if (c->target < targets->n && !gis_follow_carry(targets, c->target, xy, to, &c->kept, error)) return false;
     if (!note_trip(c->all, xy, to, error)) return false;
     memcpy(xy, to, sizeof to);
@@ -88,15 +88,20 @@ static bool carry_vertex(void *user, double xy[2], gis_error *error)
 
 static gis_value fid_of_target(const gis_follow *f, const gis_follow_place *place)
 {
-    const GIntBig fid = place->target < f->targets.n ? gis_source_fid(f->targets.source, place->target) : OGRNullFID;
-    return fid == OGRNullFID ? (gis_value){.kind = GIS_NULL} : (gis_value){GIS_INTEGER, {.integer = fid}};
+    return gis_fid_as_value(place->target < f->targets->n ? f->targets->target[place->target].fid : OGRNullFID);
+}
+
+static gis_value layer_of_target(const gis_follow *f, const gis_follow_place *place)
+{
+    const char *layer = place->target < f->targets->n ? f->targets->target[place->target].layer : NULL;
+    return layer ? (gis_value){GIS_TEXT, {.text = layer}} : (gis_value){.kind = GIS_NULL};
 }
 
 static bool write_feature(gis_sink_layer *layer, gis_follow *f, size_t i, trips *all, gis_error *error)
 {
     gis_follow_place *place = &f->place[i];
     const bool moves = place->status == GIS_FOLLOW_MOVED;
-    carrying c = {f, moves ? place->target : f->targets.n, true, all};
+    carrying c = {f, moves ? place->target : f->targets->n, true, all};
     OGRGeometryH old = gis_source_geometry(f->input, i), geometry = old ? OGR_G_Clone(old) : NULL;
     if (old && !geometry) return gis_no_memory(error);
     if (!gis_geometry_change(geometry, carry_vertex, &c, error)) {
@@ -105,25 +110,28 @@ static bool write_feature(gis_sink_layer *layer, gis_follow *f, size_t i, trips 
     }
     if (!c.kept) place->status = GIS_FOLLOW_OUTSIDE;
     f->count[place->status]++;
-    const double *move = moves ? f->targets.target[place->target].move : (const double[2]){0, 0};
+    const double *move = moves ? f->targets->target[place->target].move : (const double[2]){0, 0};
     const gis_value values[] = {{GIS_REAL, {.real = move[0]}},
                                 {GIS_REAL, {.real = move[1]}},
                                 {GIS_TEXT, {.text = gis_follow_status_string(place->status)}},
-                                fid_of_target(f, place)};
+                                fid_of_target(f, place),
+                                layer_of_target(f, place)};
     return gis_sink_write(layer, gis_source_feature(f->input, i), geometry, values, error);
 }
 
-bool gis_follow_write(gis_sink *sink, gis_follow *follow, gis_error *error)
+bool gis_follow_write(gis_sink *sink, size_t main, gis_follow *follow, gis_error *error)
 {
     static const gis_field fields[] = {{"sunder_dx", OFTReal, 0},
                                        {"sunder_dy", OFTReal, 0},
                                        {"sunder_st", OFTString, 7},
-                                       {"sunder_to", OFTInteger64, 0}};
+                                       {"sunder_to", OFTInteger64, 0},
+                                       {"sunder_lay", OFTString, 0}};
     const gis_sink_layer_request request = {.suffix = "",
+                                            .main = main,
                                             .like_source = true,
                                             .as_source = true,
                                             .fields = fields,
-                                            .n_fields = sizeof fields / sizeof *fields,
+                                            .n_fields = sizeof fields / sizeof *fields - (follow->layers ? 0 : 1),
                                             .style = GIS_STYLE_NONE};
     gis_sink_layer *layer;
     trips all = {0};

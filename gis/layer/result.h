@@ -66,9 +66,16 @@ struct gis_result {
     void *of;                     /* what the implementation works on: a sunder_report or a gis_shard_run */
 };
 
+/* Is called with each feature, the number i of its layer or of its current batch, before it is written; also with those
+ * that are hidden and not written. */
+typedef bool gis_feature_watch(void *user, const gis_layer_input *own, size_t i, const gis_feature_row *row,
+                               gis_error *error);
+
 /* Which layers are written. */
 typedef struct gis_result_layers {
     bool main, displacement, conflicts, pushes, rows, symbols, hidden;
+    gis_feature_watch *watch; /* NULL: nothing watches the main layers */
+    void *watcher;
 } gis_result_layers;
 
 /* Writes the chosen layers, one after the other (result_layers.c). */

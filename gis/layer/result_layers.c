@@ -12,6 +12,7 @@ typedef struct feature_writer {
     gis_sink *sink;
     gis_sink_layer *layer;
     size_t begun; /* the number of main layers that are begun */
+    const gis_result_layers *layers;
 } feature_writer;
 
 /* Begins main layers up to number `main`. */
@@ -28,6 +29,7 @@ static bool write_feature(void *user, size_t i, const gis_feature_row *row, gis_
 {
     feature_writer *w = user;
     const gis_layer_input *own = gis_layer_own(w->input, &i);
+    if (w->layers->watch && !w->layers->watch(w->layers->watcher, own, i, row, error)) return false;
     if (own->request->rules.drop_hidden && row->status == SUNDER_FEATURE_HIDDEN) return true;
     return (!w->input->parts || begin_mains(w, (size_t)(own - w->input->part), error)) &&
            gis_main_row(w->layer, i, row, error);
@@ -59,10 +61,10 @@ static bool write_push(void *layer, const sunder_push *push, const gis_things *t
     return gis_go_on(error) && gis_line_row(layer, values, from, to, error);
 }
 
-static bool write_main(const gis_result *r, bool wanted, gis_sink *sink, gis_error *error)
+static bool write_main(const gis_result *r, const gis_result_layers *layers, gis_sink *sink, gis_error *error)
 {
-    feature_writer w = {.input = r->input, .sink = sink};
-    if (!wanted) return r->kind->features(r, true, NULL, NULL, error);
+    feature_writer w = {.input = r->input, .sink = sink, .layers = layers};
+    if (!layers->main) return r->kind->features(r, true, NULL, NULL, error);
     return begin_mains(&w, 0, error) && r->kind->features(r, gis_sink_has_null(w.layer), write_feature, &w, error) &&
            (!r->input->parts || begin_mains(&w, r->input->parts - 1, error));
 }
@@ -121,7 +123,7 @@ static bool write_hidden(const gis_result *r, gis_sink *sink, gis_error *error)
 
 bool gis_result_write(const gis_result *result, const gis_result_layers *layers, gis_sink *sink, gis_error *error)
 {
-    return write_main(result, layers->main, sink, error) &&
+    return write_main(result, layers, sink, error) &&
            (!layers->displacement || write_displacement(result, sink, error)) &&
            (!layers->conflicts || write_conflicts(result, sink, error)) &&
            (!layers->pushes || write_pushes(result, sink, error)) &&

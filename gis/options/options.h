@@ -130,6 +130,15 @@ bool gis_option_is_needed(const gis_option *option);
 
 typedef struct gis_options gis_options;
 
+/* A layer of a sheet that goes along with what moves. Texts are borrowed; NULL: not given. */
+typedef struct gis_along {
+    const char *source, *layer, *where, *crs;
+    const char *name;     /* in the output */
+    const char *by;       /* as of --by */
+    const char *of;       /* the name of the layer that it goes along with; NULL: all that move */
+    const char *id_field; /* the field of that layer that `by` names */
+} gis_along;
+
 typedef struct gis_command {
     unsigned bit;
     const char *name;
@@ -159,13 +168,15 @@ struct gis_options {
     /* Of a sheet (--spec), borrowed; NULL: none. */
     const struct gis_gap_classes *gap_classes;
     const struct gis_legible_rules *legible; /* what check asks of each feature */
-    const char *sheet;          /* it, with the other options in it, as JSON */
-    const char *original_layer; /* the layer that moves, in its source: check --before looks for it */
+    const char *sheet;                       /* it, with the other options in it, as JSON */
+    const char *original_layer;              /* the layer that moves, in its source: check --before looks for it */
     /* If several layers of the sheet move: its name, with which the names of other results begin; the name of the layer
      * that these options are about; and the options of the other layers, which are owned. */
     const char *sheet_name, *layer_name;
     struct gis_options *more; /* [n_more] */
     size_t n_more;
+    const gis_along *along; /* [n_along] borrowed: the layers of the sheet that go along */
+    size_t n_along;
 };
 
 /* Parses the arguments that follow the name of the command. *out borrows the strings of argv. If --help is among them,

@@ -22,12 +22,14 @@ typedef struct gis_sheet {
     gis_gap_classes gaps;                 /* name, rule and of_barrier are owned here */
     gis_sheet_moving *of_layer;           /* [moving] */
     size_t moving;                        /* the number of layers that move */
-    const char **name;                    /* [gaps.classes] borrowed from `root`; name[0] is NULL */
-    gis_gap_rule *rule;                   /* [gaps.rules] */
-    uint32_t *of_barrier;                 /* [barriers] */
-    size_t barriers;                      /* the number of values of --barrier that were made from layers */
-    bool said[OPT_N];                     /* the options that the command line gave */
-    bool classes_by_field;                /* a layer has its classes in a field, so any name may be one */
+    gis_along *along;                     /* [followers] the layers that go along */
+    size_t followers;
+    const char **name;     /* [gaps.classes] borrowed from `root`; name[0] is NULL */
+    gis_gap_rule *rule;    /* [gaps.rules] */
+    uint32_t *of_barrier;  /* [barriers] */
+    size_t barriers;       /* the number of values of --barrier that were made from layers */
+    bool said[OPT_N];      /* the options that the command line gave */
+    bool classes_by_field; /* a layer has its classes in a field, so any name may be one */
 } gis_sheet;
 
 /* Reads the file of --spec, if it is given, and sets the options that it has and the command line has not. With

@@ -78,6 +78,15 @@ bool gis_sheet_is_common(gis_option_id id);
 /* Is it a layer that moves? */
 bool gis_sheet_is_moving(struct json_object *layer);
 
+/* ---- sheet_follow.c ---------------------------------------------------------------------------------------------- */
+
+/* Reads a layer that goes along with those that move. */
+bool gis_sheet_add_follower(gis_sheet *sheet, struct json_object *layer, const char *place, gis_options *options,
+                            gis_error *error);
+/* Checks what such layers say of those that move, once these are known, and lends them to the options. */
+bool gis_sheet_lend_followers(gis_sheet *sheet, gis_options *options, gis_error *error);
+extern const char *const gis_sheet_follower_keys[];
+
 /* ---- sheet_print.c ----------------------------------------------------------------------------------------------- */
 
 /* Puts the options of the command line into a copy of the sheet. */

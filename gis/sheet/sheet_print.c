@@ -157,7 +157,11 @@ static void put_layer(gis_json *out)
     put_type(out, "source", "string", "dataset; a relative path is relative to the sheet");
     put_type(out, "layer", "string", "layer of the dataset");
     put_type(out, "crs", "string", "CRS of the source, in place of its own");
-    put_type(out, "role", "string", "move; fixed: never moves; barrier: never moves, and is not crossed");
+    put_type(out, "role", "string",
+             "move; fixed: never moves; barrier: never moves, and is not crossed; "
+             "follow: goes along with what moves");
+    put_type(out, "by", "string", "follow: what a feature goes along with: inside, nearest:LENGTH or field:NAME");
+    put_type(out, "of", "string", "follow: the layer that moves which it goes along with; unless given, all of them");
     put_type(out, "class", "string|object", "class for gaps: a name, or {\"field\": NAME}");
     put_type(out, "width", "string|number|object",
              "barriers: drawn width; {\"field\": NAME}, or {\"by\": NAME, \"of\": {VALUE: LENGTH}, \"else\": LENGTH}");

@@ -76,10 +76,9 @@ static bool apply_layer(gis_sheet *sheet, struct json_object *layer, const char 
     if (!source) return gis_sheet_fail(sheet, error, place, "\"source\" is missing: a dataset");
     if (role && (strcmp(role, "barrier") == 0 || strcmp(role, "fixed") == 0))
         return sheet->said[OPT_BARRIER] || gis_sheet_add_barriers(sheet, layer, place, options, error);
-    if (role && strcmp(role, "follow") == 0)
-        return gis_sheet_fail(sheet, error, place, "a layer that follows is moved by sunder follow, from the result");
+    if (role && strcmp(role, "follow") == 0) return gis_sheet_add_follower(sheet, layer, place, options, error);
     if (!role || strcmp(role, "move") != 0)
-        return gis_sheet_fail(sheet, error, place, "\"role\" must be move, fixed or barrier");
+        return gis_sheet_fail(sheet, error, place, "\"role\" must be move, fixed, barrier or follow");
     (*moving)++;
     return true;
 }
@@ -96,7 +95,7 @@ static bool apply_layers(gis_sheet *sheet, gis_options *options, gis_error *erro
         if (!apply_layer(sheet, json_object_array_get_idx(layers, k), place, &moving, options, error)) return false;
     }
     if (!moving) return gis_sheet_fail(sheet, error, "layers", "none has the role move");
-    return gis_sheet_apply_moving(sheet, moving, options, error);
+    return gis_sheet_apply_moving(sheet, moving, options, error) && gis_sheet_lend_followers(sheet, options, error);
 }
 
 /* ---- All of it --------------------------------------------------------------------------------------------------- */
@@ -143,6 +142,7 @@ void gis_sheet_clear(gis_sheet *sheet)
     CPLFree(sheet->directory);
     CPLFree(sheet->stem);
     free(sheet->of_layer);
+    free(sheet->along);
     free(sheet->name);
     free(sheet->rule);
     free(sheet->of_barrier);

@@ -149,7 +149,6 @@ wrong 'the least gap, 3, is greater than the gap, 2' '.gaps = [{"between": ["hou
 wrong 'gaps: 1024 classes; at most 1023' '.gaps = [range(1024) | {"between": ["k\(.)", "*"], "gap": 1}] | .layers[0].class = {"field": "kind"}'
 wrong 'layers[1].width: must be a length' '.layers[1].width = {"by": "class"}'
 wrong 'must be true or false' '.defaults.no_blocks = "yes"'
-wrong 'follow' '.layers[1].role = "follow"'
 printf '{"layers": [\n1 2]}' >wrong.json
 expect 2 separate --spec wrong.json no.gpkg
 grep -q 'wrong.json: line 2' err || fail "$(cat err)"

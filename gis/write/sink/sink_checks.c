@@ -199,7 +199,7 @@ static bool check_database(gis_sink *sink, gis_error *error)
 bool gis_sink_check_existing(gis_sink *sink, gis_error *error)
 {
     if (sink->request.n_more && (sink->to_stdout || sink->format.one_layer))
-        return gis_fail(error, "%s: %zu layers move, and %s holds one layer a file; write a GeoPackage",
+        return gis_fail(error, "%s: there are %zu layers, and %s holds one layer a file; write a GeoPackage",
                         sink->request.path, sink->request.n_more + 1, sink->format.name);
     if (sink->to_stdout) return true;
     if (sink->place == GIS_PLACE_DATABASE) return check_database(sink, error);
