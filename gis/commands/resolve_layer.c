@@ -268,6 +268,7 @@ static bool resolve_one(const gis_options *options, gis_layer_input_request *out
         .previous = options->text[OPT_PREVIOUS],
         .previous_stays = options->text[OPT_PREVIOUS_RELAX] && strcmp(options->text[OPT_PREVIOUS_RELAX], "no") == 0,
         .links = {.radius = gis_resolve_length(options, OPT_LINKS_RADIUS)},
+        .written = options->text[OPT_OUTPUT_LAYER],
         .name = options->layer_name,
         .id_field = options->text[OPT_ID_FIELD],
         .symbol = options->text[OPT_SYMBOL],
@@ -289,9 +290,8 @@ static bool resolve_one(const gis_options *options, gis_layer_input_request *out
 /* Refuses what is of one layer alone. */
 static bool check_together(const gis_options *options, gis_error *error)
 {
-    static const gis_option_id not_with[] = {OPT_PROOF,       OPT_MAX_MEMORY,  OPT_PREVIOUS, OPT_LINKS,
-                                             OPT_BEFORE,      OPT_TRIM,        OPT_INSET,    OPT_ENLARGE,
-                                             OPT_SYMBOL_SIZE, OPT_HIDDEN_FIELD};
+    static const gis_option_id not_with[] = {OPT_PROOF, OPT_MAX_MEMORY, OPT_BEFORE,      OPT_TRIM,
+                                             OPT_INSET, OPT_ENLARGE,    OPT_SYMBOL_SIZE, OPT_HIDDEN_FIELD};
     for (size_t k = 0; k < sizeof not_with / sizeof *not_with; k++)
         if (options->given[not_with[k]])
             return gis_fail_usage(error, "--spec: not with several layers that move: %s",

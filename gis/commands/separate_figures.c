@@ -154,26 +154,34 @@ static void json_shrunk(gis_json *out, const gis_separate_run *run)
 
 /* What became of the moves of an earlier result. */
 typedef struct gis_moves_since {
-    size_t kept, changed, new, edited, relaxed;
+    size_t kept, changed, new, edited, relaxed, gone;
 } gis_moves_since;
+
+/* Adds those of one layer. */
+static void count_moves_of(const gis_separate_run *run, const gis_layer_input *input, gis_moves_since *count)
+{
+    const gis_previous *previous = &input->previous;
+    count->gone += previous->gone;
+    for (size_t i = 0; i < input->n; i++) {
+        double dx, dy;
+        const double *was = previous->move + 2 * i;
+        sunder_report_move(run->report, input->first + i, &dx, &dy);
+        count->edited += previous->edited[i];
+        count->relaxed += previous->relaxed[i] && !previous->edited[i];
+        if (previous->of[i] == SIZE_MAX)
+            count->new ++;
+        else if (dx == was[0] && dy == was[1])
+            count->kept++;
+        else
+            count->changed++;
+    }
+}
 
 static gis_moves_since count_moves_since(const gis_separate_run *run)
 {
-    const gis_previous *previous = &run->input.previous;
     gis_moves_since count = {0};
-    for (size_t i = 0; i < run->input.n; i++) {
-        double dx, dy;
-        const double *was = previous->move + 2 * i;
-        sunder_report_move(run->report, i, &dx, &dy);
-        count.edited += previous->edited[i];
-        count.relaxed += previous->relaxed[i] && !previous->edited[i];
-        if (previous->of[i] == SIZE_MAX)
-            count.new ++;
-        else if (dx == was[0] && dy == was[1])
-            count.kept++;
-        else
-            count.changed++;
-    }
+    if (!run->input.parts) count_moves_of(run, &run->input, &count);
+    for (size_t k = 0; k < run->input.parts; k++) count_moves_of(run, &run->input.part[k], &count);
     return count;
 }
 
@@ -185,7 +193,7 @@ static void json_previous(gis_json *out, const gis_separate_run *run)
     gis_json_put_size(out, "kept", count.kept);
     gis_json_put_size(out, "changed", count.changed);
     gis_json_put_size(out, "new", count.new);
-    gis_json_put_size(out, "gone", run->input.previous.gone);
+    gis_json_put_size(out, "gone", count.gone);
     gis_json_put_size(out, "edited", count.edited);
     gis_json_put_size(out, "relaxed", count.relaxed);
     gis_json_close(out, '}');
@@ -267,7 +275,7 @@ void gis_separate_stats(gis_json *out, const gis_separate_run *run)
         json_shortfall(out, summary);
         gis_json_line(out);
     }
-    if (run->input.previous.move) {
+    if (run->request.previous) {
         json_previous(out, run);
         gis_json_line(out);
     }
@@ -389,10 +397,10 @@ static void print_shortfall(const gis_separate_run *run)
 
 static void print_previous(const gis_separate_run *run)
 {
-    if (!run->input.previous.move) return;
+    if (!run->request.previous) return;
     const gis_moves_since count = count_moves_since(run);
     printf("since the previous result: kept %zu, changed %zu, new %zu, gone %zu, edited %zu; free to go back %zu\n",
-           count.kept, count.changed, count.new, run->input.previous.gone, count.edited, count.relaxed);
+           count.kept, count.changed, count.new, count.gone, count.edited, count.relaxed);
 }
 
 bool gis_separate_print(const void *separated, gis_error *error)

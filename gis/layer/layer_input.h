@@ -36,8 +36,9 @@ typedef struct gis_layer_input_request {
     bool moves;         /* features will be moved, so barriers within reach of their limits are read */
     bool drawn;         /* everything will be drawn, features that conflict with nothing as well */
     gis_layer_rules rules;
-    const char *name;  /* in the output, if several layers move together */
-    const char *title; /* of all of them */
+    const char *written; /* the name that the layer has in results, if it is given */
+    const char *name;    /* in the output, if several layers move together */
+    const char *title;   /* of all of them */
     /* [more] the other layers that move together with this one, each with rules of its own for its features; what
      * concerns the whole run is taken from this one. Owned. */
     struct gis_layer_input_request *with;

@@ -57,7 +57,7 @@ static bool find_preferred(gis_layer_input *input, double *move, gis_error *erro
 {
     const gis_previous *previous = &input->previous;
     if (!is_preferring(input)) return true;
-    bool ok = gis_previous_read(input, error) && take_links(input, move, error);
+    bool ok = take_links(input, move, error);
     for (size_t i = 0; i < input->n && ok; i++) {
         if (input->feature[i].ignored) continue;
         if (previous->move && previous->of[i] != SIZE_MAX && !previous->relaxed[i])
@@ -74,7 +74,7 @@ bool gis_layer_set_preferred(gis_layer_input *input, gis_error *error)
     for (size_t k = 0; k < input->parts; k++) any = any || is_preferring(&input->part[k]);
     if (!any) return true;
     double *move = calloc(2 * input->n + 1, sizeof *move);
-    bool ok = move || gis_no_memory(error);
+    bool ok = (move || gis_no_memory(error)) && gis_previous_read(input, error);
     if (ok && !input->parts) ok = find_preferred(input, move, error);
     for (size_t k = 0; k < input->parts && ok; k++)
         ok = find_preferred(&input->part[k], move + 2 * input->part[k].first, error);

@@ -128,9 +128,11 @@ def judge(result, town, path):
     with open(path, encoding="utf-8") as file:
         sheet = json.loads(file.read().split("*/", 1)[1])
     houses = moved_features(result, sheet)
-    still = [("roads", fid, shape, values["class"], {"main": 6, "lane": 3}.get(values["class"], 1))
-             for fid, shape, values in rows(town, "roads")]
-    if any(layer["name"] == "points" for layer in sheet["layers"]):
+    names, still = [layer["name"] for layer in sheet["layers"]], []
+    if "roads" in names:
+        still += [("roads", fid, shape, values["class"], {"main": 6, "lane": 3}.get(values["class"], 1))
+                  for fid, shape, values in rows(town, "roads")]
+    if "points" in names:
         still += [("points", fid, shape, "post", 2) for fid, shape, _ in rows(town, "points")]
     together = sum(layer["role"] == "move" for layer in sheet["layers"]) > 1
     stem = path.rsplit(".", 1)[0] if together else "moved"
@@ -172,7 +174,7 @@ def kept(result, town, path):
             dx, dy = values["sunder_dx"], values["sunder_dy"]
             if any(values[key] != of[key] for key in of) or arrows.get((layer["name"], fid), (0, 0)) != (dx, dy):
                 sys.exit(f"{layer['name']} {fid}: other attributes, or another arrow")
-            if dx * dx + dy * dy > layer.get("max_shift", sheet["defaults"]["max_shift"]) ** 2:
+            if dx * dx + dy * dy > layer.get("max_shift", sheet["defaults"].get("max_shift", float("inf"))) ** 2:
                 sys.exit(f"{layer['name']} {fid}: it moved too far")
             if after.wkb != affinity.translate(before, dx, dy).wkb:
                 sys.exit(f"{layer['name']} {fid}: it is no translate")
