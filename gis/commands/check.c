@@ -25,7 +25,8 @@ typedef struct check_run {
     gis_sink *sink; /* NULL: there is no OUTPUT */
     sunder_report *report;
     sunder_layer_summary summary;
-    gis_moves moves; /* the moves since --before */
+    gis_layer_input_request original; /* of --before */
+    gis_moves moves;                  /* the moves since */
     gis_legible legible;
     gis_progress progress;
 } check_run;
@@ -43,20 +44,27 @@ static bool open_sink(check_run *run, gis_error *error)
     return gis_sink_open(&request, run->input.source, &run->sink, error);
 }
 
+/* Refuses results that would replace an original. */
+static bool spare_original(const check_run *run, const gis_source *before, gis_error *error)
+{
+    return gis_destinations_spare(&run->to, before, error) &&
+           (!run->to.output || gis_source_spare(before, run->to.output, run->options->given[OPT_UPDATE], error));
+}
+
 /* Finds the moves since --before that break a rule; does nothing without --before. */
 static bool check_moves(check_run *run, gis_error *error)
 {
-    gis_layer_input_request original;
     double box[4];
     if (!run->options->given[OPT_BEFORE]) return true;
     gis_layer_box(&run->input, box);
-    gis_resolve_original(run->options, &run->request, gis_layer_title(&run->input), &original);
-    original.also = box;
-    original.moves = true; /* hence the same barriers count as when the features were moved */
-    if (!gis_moves_check(&original, &run->input, &run->progress, &run->moves, error)) return false;
-    const gis_source *before = run->moves.original.source;
-    return gis_destinations_spare(&run->to, before, error) &&
-           (!run->to.output || gis_source_spare(before, run->to.output, run->options->given[OPT_UPDATE], error));
+    if (!gis_resolve_original(run->options, &run->request, gis_layer_title(&run->input), &run->original, error))
+        return false;
+    run->original.also = box;
+    bool ok = gis_moves_check(&run->original, &run->input, &run->progress, &run->moves, error);
+    run->original.also = NULL;
+    for (size_t k = 0; ok && k < gis_layer_sources(&run->moves.original); k++)
+        ok = spare_original(run, gis_layer_source(&run->moves.original, k), error);
+    return ok;
 }
 
 static bool write_layer(check_run *run, gis_error *error)
@@ -162,9 +170,10 @@ static bool is_asked_about(const gis_moves *moves, sunder_conflict_kind kind)
     return kind != SUNDER_CONFLICT_ROW || moves->original.request->rules.core.rows;
 }
 
-static void print_moves(const gis_moves *moves)
+static void print_moves(const check_run *run)
 {
-    printf("since %s: %zu matched", gis_source_path(moves->original.source), moves->n);
+    const gis_moves *moves = &run->moves;
+    printf("since %s: %zu matched", run->options->text[OPT_BEFORE], moves->n);
     for (sunder_conflict_kind kind = SUNDER_CONFLICT_WORSE; kind <= SUNDER_CONFLICT_TOO_SMALL; kind++)
         if (is_asked_about(moves, kind))
             printf(", %s %zu", sunder_conflict_kind_string(kind), gis_moves_count(moves, kind));
@@ -210,7 +219,7 @@ static bool print_check(const void *checked, gis_error *error)
     const check_run *run = checked;
     if (!print_lines(run, error)) return false;
     if (!run->options->given[OPT_QUIET]) print_counts(run);
-    if (run->options->given[OPT_BEFORE] && !run->options->given[OPT_QUIET]) print_moves(&run->moves);
+    if (run->options->given[OPT_BEFORE] && !run->options->given[OPT_QUIET]) print_moves(run);
     if (is_asked_to_be_legible(&run->legible) && !run->options->given[OPT_QUIET]) print_legible(&run->legible);
     return true;
 }
@@ -271,17 +280,38 @@ static bool deliver_check(const check_run *run, bool taken, gis_error *error)
     gis_json stats = {0};
     gis_text page = {0};
     if (run->to.stats) json_check(&stats, run);
+    const gis_findings found = {&run->input, run->report, &run->legible, &run->moves};
     const gis_delivery delivery = {.to = &run->to,
                                    .sink = run->sink,
                                    .stats = &stats,
                                    .report = &page,
                                    .print = taken ? NULL : print_check,
                                    .run = run};
-    bool ok = (!run->to.report || gis_check_page_write(&run->input, run->report, &run->legible, &page, error)) &&
-              gis_deliver(&delivery, error);
+    bool ok = (!run->to.report || gis_check_page_write(&found, &page, error)) && gis_deliver(&delivery, error);
     gis_json_clear(&stats);
     gis_text_clear(&page);
     return ok;
+}
+
+/* Refuses results that would replace an input. */
+static bool spare_inputs(const check_run *run, gis_error *error)
+{
+    for (size_t k = 0; k < gis_layer_sources(&run->input); k++)
+        if (!gis_destinations_spare(&run->to, gis_layer_source(&run->input, k), error)) return false;
+    return true;
+}
+
+/* With a sheet an operand is a result. Who wants the findings in a file may give that as the only operand. */
+static bool hint_at_output(const gis_options *options, gis_error *error)
+{
+    const char *operand = options->operand[0];
+    if (!options->sheet || operand == options->original_source || options->n_operands > 1 ||
+        !strstr(error->message, "no such file"))
+        return false;
+    return gis_fail(error,
+                    "%s: no such file; with --spec the operand is the result to check, and --output FILE writes "
+                    "what is found",
+                    operand);
 }
 
 int gis_command_check(const gis_options *options)
@@ -292,9 +322,8 @@ int gis_command_check(const gis_options *options)
     bool taken, ok = gis_destinations_check(&run.to, &taken, &error);
     gis_progress_stage(&run.progress, 0, GIS_CHECK_READ);
     ok = ok && gis_resolve_layer(options, &run.request, &error) &&
-         gis_layer_input_read(&run.request, &run.input, &error) &&
-         gis_destinations_spare(&run.to, run.input.source, &error) && check_and_write(&run, &error) &&
-         deliver_check(&run, taken, &error);
+         (gis_layer_input_read(&run.request, &run.input, &error) || hint_at_output(options, &error)) &&
+         spare_inputs(&run, &error) && check_and_write(&run, &error) && deliver_check(&run, taken, &error);
     int status = ok ? gis_complete_status(options, gis_any_conflict(&run.summary.before) ||
                                                        gis_moves_rows(&run.moves) || run.legible.n)
                     : gis_say_failure(&error);
@@ -302,6 +331,7 @@ int gis_command_check(const gis_options *options)
     free(run.layer);
     sunder_report_free(run.report);
     gis_moves_clear(&run.moves);
+    free(run.original.with);
     gis_legible_clear(&run.legible);
     gis_layer_input_clear(&run.input);
     gis_layer_input_request_clear(&run.request);

@@ -18,10 +18,11 @@ gis_optional_length gis_resolve_length(const gis_options *options, gis_option_id
 /* Separate, check and buffer: the request of the layer, and its rules, which buffer ignores. The caller clears *out
  * with gis_layer_input_request_clear(), on failure, too. */
 bool gis_resolve_layer(const gis_options *options, gis_layer_input_request *out, gis_error *error);
-/* Check --before: the request of the original layer, with the name `name` if the dataset has such a layer. All else is
- * copied from `now`, the request of the checked layer, which still owns the barriers and strings. */
-void gis_resolve_original(const gis_options *options, const gis_layer_input_request *now, const char *name,
-                          gis_layer_input_request *out);
+/* Check --before: the request of the original layer, with the name `name` if the dataset has such a layer, and of those
+ * that move with it (the caller frees out->with, on failure, too). All else is copied from `now`, the request of the
+ * checked layer, which still owns the barriers and strings. */
+bool gis_resolve_original(const gis_options *options, const gis_layer_input_request *now, const char *name,
+                          gis_layer_input_request *out, gis_error *error);
 /* For the commands sum and pair: the requests for P and Q. An option that selects features (--where, --bbox) is
  * refused if neither operand is a data source. */
 bool gis_resolve_operands(const gis_options *options, gis_operands_request *out, gis_error *error);

@@ -218,11 +218,20 @@ static bool resolve_least_gaps(const gis_options *options, gis_layer_input_reque
     return true;
 }
 
-void gis_resolve_original(const gis_options *options, const gis_layer_input_request *now, const char *name,
-                          gis_layer_input_request *out)
+/* Where the original of a layer is: with the file of --spec as ORIGINAL, where that says. */
+static const char *original_path(const gis_options *options)
+{
+    const char *path = options->text[OPT_BEFORE], *sheet = options->text[OPT_SPEC];
+    return sheet && options->original_source && strcmp(path, sheet) == 0 ? options->original_source : path;
+}
+
+static void resolve_original_of(const gis_options *options, const gis_layer_input_request *now, const char *name,
+                                gis_layer_input_request *out)
 {
     *out = *now;
-    out->source = (gis_source_request){.path = options->text[OPT_BEFORE],
+    out->with = NULL;
+    out->more = 0;
+    out->source = (gis_source_request){.path = original_path(options),
                                        .where = now->source.where,
                                        .input_crs = now->source.input_crs,
                                        .layer = options->original_layer,
@@ -235,7 +244,20 @@ void gis_resolve_original(const gis_options *options, const gis_layer_input_requ
     out->rules.inset = options->text[OPT_INSET];
     out->rules.symbol_size = gis_resolve_length(options, OPT_SYMBOL_SIZE);
     out->rules.enlarge = options->given[OPT_ENLARGE];
-    out->compared = true;
+    out->compared = out->moves = true; /* hence the same barriers count as when the features were moved */
+}
+
+bool gis_resolve_original(const gis_options *options, const gis_layer_input_request *now, const char *name,
+                          gis_layer_input_request *out, gis_error *error)
+{
+    resolve_original_of(options, now, now->more ? now->name : name, out);
+    if (now->more == 0) return true;
+    out->with = calloc(now->more, sizeof *out->with);
+    if (!out->with) return gis_no_memory(error);
+    for (; out->more < now->more; out->more++)
+        resolve_original_of(&options->more[out->more], &now->with[out->more], now->with[out->more].name,
+                            &out->with[out->more]);
+    return true;
 }
 
 /* Checks the options of the command check that depend on --before: some apply to moves only, and some select features
@@ -290,8 +312,8 @@ static bool resolve_one(const gis_options *options, gis_layer_input_request *out
 /* Refuses what is of one layer alone. */
 static bool check_together(const gis_options *options, gis_error *error)
 {
-    static const gis_option_id not_with[] = {OPT_PROOF, OPT_MAX_MEMORY, OPT_BEFORE,      OPT_TRIM,
-                                             OPT_INSET, OPT_ENLARGE,    OPT_SYMBOL_SIZE, OPT_HIDDEN_FIELD};
+    static const gis_option_id not_with[] = {OPT_PROOF,   OPT_MAX_MEMORY,  OPT_TRIM,        OPT_INSET,
+                                             OPT_ENLARGE, OPT_SYMBOL_SIZE, OPT_HIDDEN_FIELD};
     for (size_t k = 0; k < sizeof not_with / sizeof *not_with; k++)
         if (options->given[not_with[k]])
             return gis_fail_usage(error, "--spec: not with several layers that move: %s",

@@ -36,9 +36,9 @@ static bool read_whole(gis_separate_run *run, gis_error *error)
 /* Refuses results that would replace an input. */
 static bool spare_inputs(const gis_separate_run *run, gis_error *error)
 {
-    for (size_t k = 1; k < run->input.parts; k++)
-        if (!gis_destinations_spare(&run->to, run->input.part[k].source, error)) return false;
-    return gis_destinations_spare(&run->to, run->input.source, error);
+    for (size_t k = 0; k < gis_layer_sources(&run->input); k++)
+        if (!gis_destinations_spare(&run->to, gis_layer_source(&run->input, k), error)) return false;
+    return true;
 }
 
 static bool separate_whole(gis_separate_run *run, gis_error *error)

@@ -17,8 +17,6 @@ static const gis_layer_input *moving_layer(const gis_layer_input *input, size_t 
     return input->parts ? &input->part[k] : input;
 }
 
-static size_t count_moving(const gis_layer_input *input) { return input->parts ? input->parts : 1; }
-
 /* Does a layer go along with features of this layer? */
 static bool goes_with(const gis_separate_run *run, const gis_follow *follow, const gis_layer_input *own)
 {
@@ -30,7 +28,7 @@ static bool goes_with(const gis_separate_run *run, const gis_follow *follow, con
 static bool check_keys(const gis_separate_run *run, const gis_follow *follow, gis_error *error)
 {
     int field;
-    for (size_t k = 0; k < count_moving(&run->input); k++) {
+    for (size_t k = 0; k < gis_layer_sources(&run->input); k++) {
         const gis_layer_input *own = moving_layer(&run->input, k);
         if (goes_with(run, follow, own) &&
             !gis_field_find(own->source, "--spec: id_field", follow->request->id_field, &field, error))
@@ -43,7 +41,7 @@ static bool check_keys(const gis_separate_run *run, const gis_follow *follow, gi
 static const char *main_name(const gis_separate_run *run, size_t k)
 {
     const gis_layer_input *input = &run->input;
-    if (k >= count_moving(input)) return gis_follow_name(&run->along.follow[k - count_moving(input)]);
+    if (k >= gis_layer_sources(input)) return gis_follow_name(&run->along.follow[k - gis_layer_sources(input)]);
     if (input->parts) return gis_layer_name(&input->part[k]);
     return gis_resolve_sink(run->options, NULL, gis_layer_title(input)).main_layer;
 }
@@ -68,7 +66,7 @@ static bool read_one(gis_separate_run *run, size_t k, gis_error *error)
     if (!gis_crs_may_be_same(gis_source_crs(follow->input), gis_source_crs(run->input.source)))
         return gis_fail(error, "layer %s goes along with %s, and they are in different CRSs: reproject one of them",
                         gis_follow_name(follow), main_name(run, 0));
-    return check_name(run, count_moving(&run->input) + k, error) && check_keys(run, follow, error) &&
+    return check_name(run, gis_layer_sources(&run->input) + k, error) && check_keys(run, follow, error) &&
            gis_destinations_spare(&run->to, follow->input, error);
 }
 
@@ -131,6 +129,6 @@ bool gis_separate_write_along(gis_separate_run *run, gis_error *error)
     bool ok = !wanted || gis_follow_complete(&along->targets, error);
     for (size_t k = 0; ok && wanted && k < along->n; k++)
         ok = gis_follow_attach(&along->follow[k], NULL, error) &&
-             gis_follow_write(run->sink, count_moving(&run->input) + k, &along->follow[k], error);
+             gis_follow_write(run->sink, gis_layer_sources(&run->input) + k, &along->follow[k], error);
     return ok;
 }

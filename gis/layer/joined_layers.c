@@ -44,6 +44,32 @@ static bool read_part(gis_layer_input *input, const gis_layer_input_request *req
 
 /* ---- Joining ----------------------------------------------------------------------------------------------------- */
 
+/* In a result of several layers sunder_blk is the same in all members of a block, whatever layer they are of. */
+static bool has_common_blocks(const gis_layer_input *input, const gis_layer_input *part)
+{
+    const char *field = part->request->rules.block_field;
+    return part->block_field >= 0 && EQUAL(field, "sunder_blk") &&
+           strcmp(gis_source_path(part->source), gis_source_path(input->part[0].source)) == 0;
+}
+
+/* Numbers such blocks once more, over all parts. *next becomes the number after the greatest. */
+static bool number_common_blocks(gis_layer_input *input, int64_t *next, gis_error *error)
+{
+    gis_block_keys keys = {0};
+    bool ok = true;
+    for (size_t k = 0; ok && k < input->parts; k++)
+        if (has_common_blocks(input, &input->part[k])) ok = gis_layer_number_blocks(&input->part[k], &keys, error);
+    ok = ok && gis_block_keys_rank(&keys, error);
+    for (size_t k = 0; ok && k < input->parts; k++) {
+        const gis_layer_input *part = &input->part[k];
+        for (size_t i = 0; i < part->n && has_common_blocks(input, part); i++)
+            if (part->feature[i].block >= 0) part->feature[i].block = keys.rank[part->feature[i].block];
+    }
+    *next = (int64_t)keys.n;
+    gis_block_keys_clear(&keys);
+    return ok;
+}
+
 /* Gives the blocks of a part numbers that no other part has. Returns the number after its greatest. */
 static int64_t shift_blocks(const gis_layer_input *part, sunder_feature *feature, int64_t from)
 {
@@ -64,12 +90,13 @@ static bool join_features(gis_layer_input *input, gis_error *error)
     const bool classed = input->part[0].gap_class != NULL;
     if (classed) input->gap_class = malloc((input->n + 1) * sizeof *input->gap_class);
     if (!input->shape || !input->feature || (classed && !input->gap_class)) return gis_no_memory(error);
+    if (!number_common_blocks(input, &next, error)) return false;
     for (size_t k = 0; k < input->parts; k++) {
         const gis_layer_input *part = &input->part[k];
         sunder_feature *feature = input->feature + part->first;
         memcpy(input->shape + part->first, part->shape, part->n * sizeof *part->shape);
         memcpy(feature, part->feature, part->n * sizeof *feature);
-        next = shift_blocks(part, feature, next);
+        if (!has_common_blocks(input, part)) next = shift_blocks(part, feature, next);
         if (classed) memcpy(input->gap_class + part->first, part->gap_class, part->n * sizeof *input->gap_class);
     }
     return true;

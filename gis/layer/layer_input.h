@@ -108,6 +108,9 @@ typedef struct gis_layer_input {
 bool gis_layer_input_read(const gis_layer_input_request *request, gis_layer_input *out, gis_error *error);
 /* Returns the layer that feature *i belongs to, and sets *i to its number in it. */
 const gis_layer_input *gis_layer_own(const gis_layer_input *input, size_t *i);
+/* The number of sources: those of layers that move together, or one; and each of them. */
+size_t gis_layer_sources(const gis_layer_input *input);
+const gis_source *gis_layer_source(const gis_layer_input *input, size_t k);
 /* The name of the layer in the output, if several move together; else that of its source. */
 const char *gis_layer_name(const gis_layer_input *input);
 /* What the layer is called in messages and figures: the name of its source, or the title of layers that move

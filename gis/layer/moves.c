@@ -63,6 +63,12 @@ static bool find_move_of_arcs(OGRGeometryH before, OGRGeometryH after, double t[
     return found;
 }
 
+static OGRGeometryH geometry_of(const gis_layer_input *input, size_t i)
+{
+    const gis_layer_input *own = gis_layer_own(input, &i);
+    return gis_source_geometry(own->source, i);
+}
+
 /* If the features of pair k have arcs, and one is a translate of the other, the feature after is that before, moved. */
 static bool move_arcs(pairing *p, size_t k, size_t is, gis_error *error)
 {
@@ -71,8 +77,7 @@ static bool move_arcs(pairing *p, size_t k, size_t is, gis_error *error)
     bool exact;
     sunder_error why;
     if (!p->before[k].shape || !p->after[k].shape ||
-        !find_move_of_arcs(gis_source_geometry(m->original.source, m->matched[k]),
-                           gis_source_geometry(p->now->source, is), t))
+        !find_move_of_arcs(geometry_of(&m->original, m->matched[k]), geometry_of(p->now, is), t))
         return true;
     sunder_shape **moved = &m->with_arcs[m->n_with_arcs];
     if (sunder_shape_translate(p->before[k].shape, t[0], t[1], moved, &exact, &why) != SUNDER_OK)
@@ -92,46 +97,79 @@ static bool take_pair(pairing *p, size_t was, size_t is, gis_error *error)
     return move_arcs(p, m->n - 1, is, error);
 }
 
-/* Matches features of both layers, in the order of the original. Features that are only in the original are listed as
+/* Matches features of one layer, in the order of the original. Features that are only in the original are listed as
  * lost. */
-static bool match_features(pairing *p, gis_error *error)
+static bool match_layer(pairing *p, const gis_layer_input *original, const gis_layer_input *now, gis_error *error)
 {
     gis_moves *m = p->moves;
-    const gis_layer_input *now = p->now;
     gis_feature_key *keys = NULL, *own = NULL;
     bool ok = gis_feature_keys_list(now, gis_feature_key_field(now), "--before", &keys, error) &&
-              gis_feature_keys_list(&m->original, -1, "--before", &own, error);
+              gis_feature_keys_list(original, -1, "--before", &own, error);
     size_t found = 0;
-    for (size_t i = 0; ok && i < m->original.n; i++) {
-        char *key = gis_feature_key_of(&m->original, i, -1);
+    for (size_t i = 0; ok && i < original->n; i++) {
+        char *key = gis_feature_key_of(original, i, -1);
         ok = key || gis_no_memory(error);
         const gis_feature_key *other = ok ? gis_feature_keys_find(keys, now->n, key) : NULL;
         free(key);
         if (other) {
             found++;
-            ok = take_pair(p, i, other->feature, error);
+            ok = take_pair(p, original->first + i, now->first + other->feature, error);
         } else if (ok)
-            m->lost[m->n_lost++] = i;
+            m->lost[m->n_lost++] = original->first + i;
     }
     if (ok && found < now->n)
         gis_say_warning(GIS_MESSAGE_PASSED_BY, "--before: %zu features of %s are not in %s; they are not compared",
-                        now->n - found, gis_source_name(now->source), gis_source_path(m->original.source));
+                        now->n - found, gis_source_name(now->source), gis_source_path(original->source));
     gis_feature_keys_free(keys, keys ? now->n : 0);
-    gis_feature_keys_free(own, own ? m->original.n : 0);
+    gis_feature_keys_free(own, own ? original->n : 0);
     return ok;
+}
+
+static bool is_same(const char *a, const char *b) { return a && b ? strcmp(a, b) == 0 : a == b; }
+
+/* Fails if two layers of a sheet have one original, since the dataset holds a single layer. */
+static bool check_original(const gis_layer_input *original, size_t k, gis_error *error)
+{
+    const gis_source_request *own = &original->part[k].request->source;
+    for (size_t i = 0; i < k && !own->layer; i++) {
+        const gis_source_request *other = &original->part[i].request->source;
+        const char *name = gis_source_name(original->part[k].source);
+        if (!other->layer && is_same(own->where, other->where) && strcmp(own->path, other->path) == 0 &&
+            strcmp(name, gis_source_name(original->part[i].source)) == 0)
+            return gis_fail(error,
+                            "--before %s: its layer %s would be the original of both layers %s and %s of the sheet; "
+                            "with the file of --spec as ORIGINAL each layer is compared with its source",
+                            own->path, name, gis_layer_name(&original->part[i]), gis_layer_name(&original->part[k]));
+    }
+    return true;
+}
+
+/* Matches features of each layer, by its own keys. */
+static bool match_features(pairing *p, gis_error *error)
+{
+    const gis_layer_input *original = &p->moves->original;
+    if (!original->parts) return match_layer(p, original, p->now, error);
+    for (size_t k = 0; k < original->parts; k++)
+        if (!check_original(original, k, error) || !match_layer(p, &original->part[k], &p->now->part[k], error))
+            return false;
+    return true;
 }
 
 /* Sets the side anchors of points to where they stood in the original. */
 static bool set_sides(gis_moves *m, gis_error *error)
 {
     sunder_error why;
-    if (!m->original.points) return true;
+    bool any_points = m->original.points;
+    for (size_t k = 0; k < m->original.parts; k++) any_points = any_points || m->original.part[k].points;
+    if (!any_points) return true;
     double *xy = malloc((2 * m->n + 1) * sizeof *xy);
     bool ok = xy != NULL || gis_no_memory(error);
     for (size_t k = 0; ok && k < m->n; k++) {
         bool any = false;
+        size_t i = m->matched[k];
+        const gis_layer_input *own = gis_layer_own(&m->original, &i);
         xy[2 * k] = xy[2 * k + 1] = NAN;
-        ok = gis_layer_point(&m->original, m->matched[k], xy + 2 * k, &any, error);
+        ok = !own->points || gis_layer_point(own, i, xy + 2 * k, &any, error);
     }
     if (ok && sunder_layer_set_side_anchors(m->before, xy, &why) != SUNDER_OK)
         ok = gis_core_failed(error, "--before", &why);
@@ -238,30 +276,37 @@ static void anchor_of(const gis_moves *moves, size_t feature, double at[2])
     if (shape && !sunder_shape_is_empty(shape)) sunder_shape_anchor(shape, at);
 }
 
-bool gis_moves_row(const gis_moves *moves, size_t k, gis_conflict_texts *scratch, gis_value values[N_CONFLICT_COLUMNS],
-                   double from[2], double to[2], gis_error *error)
+sunder_conflict gis_moves_finding(const gis_moves *moves, size_t k, bool *lost, bool *drawn)
 {
     size_t n;
     const sunder_conflict *conflicts = sunder_report_conflicts(moves->report, &n);
     sunder_conflict row = {
         .b = SIZE_MAX, .missing = NAN, .need_shift = NAN, .need_gap = NAN, .need_gone = SIZE_MAX, .need_gap_most = NAN};
-    const bool lost = k >= n;
-    if (lost)
+    *lost = k >= n;
+    if (*lost)
         row.a = moves->lost[k - n];
     else {
         row = conflicts[k];
         row.a = thing_of(moves, row.a);
         row.b = thing_of(moves, row.b);
     }
+    *drawn = !*lost && row.kind != SUNDER_CONFLICT_NOT_A_TRANSLATE && row.kind != SUNDER_CONFLICT_ALTERED &&
+             row.kind != SUNDER_CONFLICT_TOO_SMALL;
+    if (*drawn) return row;
+    anchor_of(moves, row.a, row.from);
+    memcpy(row.to, row.from, sizeof row.to);
+    return row;
+}
+
+bool gis_moves_row(const gis_moves *moves, size_t k, gis_conflict_texts *scratch, gis_value values[N_CONFLICT_COLUMNS],
+                   double from[2], double to[2], gis_error *error)
+{
+    bool lost, drawn;
+    const sunder_conflict row = gis_moves_finding(moves, k, &lost, &drawn);
     if (!gis_conflict_values(&moves->original, &row, scratch, values, error)) return false;
     memcpy(from, row.from, sizeof row.from);
     memcpy(to, row.to, sizeof row.to);
-    if (!lost && row.kind != SUNDER_CONFLICT_NOT_A_TRANSLATE && row.kind != SUNDER_CONFLICT_ALTERED &&
-        row.kind != SUNDER_CONFLICT_TOO_SMALL)
-        return true;
-    /* The row has no line and no distances. */
-    anchor_of(moves, row.a, from);
-    memcpy(to, from, sizeof row.to);
+    if (drawn) return true;
     for (int column = COLUMN_DISTANCE; column <= COLUMN_REQUIRED; column++)
         values[column] = (gis_value){.kind = GIS_NULL};
     if (lost) values[COLUMN_KIND] = (gis_value){GIS_TEXT, {.text = GIS_MOVES_LOST}};

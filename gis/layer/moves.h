@@ -32,6 +32,9 @@ size_t gis_moves_count(const gis_moves *moves, sunder_conflict_kind kind);
 /* The number of rows, and row k with the columns of a conflict of the original. A row about a lost feature has only the
  * feature and the kind. */
 size_t gis_moves_rows(const gis_moves *moves);
+/* Row k as a conflict of the original. *lost: it is about a lost feature, and has no kind; without *drawn it has no
+ * line and no distances, and its ends are the anchor of the feature. */
+sunder_conflict gis_moves_finding(const gis_moves *moves, size_t k, bool *lost, bool *drawn);
 bool gis_moves_row(const gis_moves *moves, size_t k, gis_conflict_texts *scratch, gis_value values[N_CONFLICT_COLUMNS],
                    double from[2], double to[2], gis_error *error);
 

@@ -10,6 +10,13 @@ const gis_layer_input *gis_layer_own(const gis_layer_input *input, size_t *i)
     return &input->part[k];
 }
 
+size_t gis_layer_sources(const gis_layer_input *input) { return input->parts ? input->parts : 1; }
+
+const gis_source *gis_layer_source(const gis_layer_input *input, size_t k)
+{
+    return input->parts ? input->part[k].source : input->source;
+}
+
 const char *gis_layer_name(const gis_layer_input *input)
 {
     return input->request->name ? input->request->name : gis_source_name(input->source);

@@ -169,7 +169,8 @@ struct gis_options {
     const struct gis_gap_classes *gap_classes;
     const struct gis_legible_rules *legible; /* what check asks of each feature */
     const char *sheet;                       /* it, with the other options in it, as JSON */
-    const char *original_layer;              /* the layer that moves, in its source: check --before looks for it */
+    /* The dataset and the layer that move, as the sheet says: check --before looks for them. */
+    const char *original_source, *original_layer;
     /* If several layers of the sheet move: its name, with which the names of other results begin; the name of the layer
      * that these options are about; and the options of the other layers, which are owned. */
     const char *sheet_name, *layer_name;

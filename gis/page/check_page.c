@@ -15,17 +15,20 @@ enum { MOST_ROWS = 1000, MOST_CORNERS = 5000 };
 #define SIDE 1200
 
 typedef struct page_row {
+    const gis_layer_input *input; /* whose features and barriers these are: the layer, or the original of --before */
     const char *kind;
     size_t a, b; /* features; from the number of features on a barrier; SIZE_MAX: none */
     double has, required, share;
-    const double *from, *to;
+    double from[2], to[2];
     size_t order;
     bool area;
+    bool broken, measured; /* a broken rule; it has lengths */
 } page_row;
 
 static int by_share(const void *a, const void *b)
 {
     const page_row *p = a, *q = b;
+    if (p->broken != q->broken) return p->broken ? -1 : 1;
     if (p->share != q->share) return p->share < q->share ? -1 : 1;
     return p->order < q->order ? -1 : p->order > q->order;
 }
@@ -37,26 +40,62 @@ static const char *word_of(sunder_illegible_kind kind)
     return word[kind];
 }
 
+static page_row row_of(const gis_layer_input *input, const sunder_conflict *c, const char *kind, size_t order)
+{
+    return (page_row){.input = input,
+                      .kind = kind,
+                      .a = c->a,
+                      .b = c->b,
+                      .has = c->distance,
+                      .required = c->required,
+                      .from = {c->from[0], c->from[1]},
+                      .to = {c->to[0], c->to[1]},
+                      .order = order,
+                      .measured = true};
+}
+
+static page_row row_of_move(const gis_moves *moves, size_t k)
+{
+    bool lost, drawn;
+    const sunder_conflict c = gis_moves_finding(moves, k, &lost, &drawn);
+    page_row row = row_of(&moves->original, &c, lost ? "lost" : gis_page_kind(c.kind), k);
+    row.broken = true;
+    row.measured = drawn && isfinite(c.distance) && isfinite(c.required) && (c.distance != 0 || c.required != 0);
+    return row;
+}
+
+static page_row row_of_size(const gis_layer_input *input, const gis_legible *legible, size_t k, size_t order)
+{
+    const sunder_illegible *is = &legible->item[k].is;
+    return (page_row){.input = input,
+                      .kind = word_of(is->kind),
+                      .a = legible->item[k].feature,
+                      .b = SIZE_MAX,
+                      .has = is->has,
+                      .required = is->required,
+                      .from = {is->from[0], is->from[1]},
+                      .to = {is->to[0], is->to[1]},
+                      .order = order,
+                      .area = is->kind == SUNDER_ILLEGIBLE_SMALL,
+                      .measured = true};
+}
+
 /* Returns the rows, the worst first, which the caller frees; NULL if out of memory. */
-static page_row *collect_rows(const sunder_report *report, const gis_legible *legible, size_t *n)
+static page_row *collect_rows(const gis_findings *found, size_t *n)
 {
     size_t conflicts;
-    const sunder_conflict *c = sunder_report_conflicts(report, &conflicts);
-    page_row *row = calloc(conflicts + legible->n + 1, sizeof *row);
+    const sunder_conflict *c = sunder_report_conflicts(found->report, &conflicts);
+    const size_t moves = gis_moves_rows(found->moves);
+    page_row *row = calloc(conflicts + moves + found->legible->n + 1, sizeof *row);
     *n = 0;
     for (size_t k = 0; row && k < conflicts; k++, c++)
-        if (!c->inside_block)
-            row[(*n)++] =
-                (page_row){gis_page_kind(c->kind), c->a, c->b, c->distance, c->required, 0, c->from, c->to, k, false};
-    for (size_t k = 0; row && k < legible->n; k++) {
-        const sunder_illegible *is = &legible->item[k].is;
-        row[(*n)++] = (page_row){
-            word_of(is->kind), legible->item[k].feature,          SIZE_MAX, is->has, is->required, 0, is->from, is->to,
-            conflicts + k,     is->kind == SUNDER_ILLEGIBLE_SMALL};
-    }
+        if (!c->inside_block) row[(*n)++] = row_of(found->input, c, gis_page_kind(c->kind), k);
+    for (size_t k = 0; row && k < moves; k++) row[(*n)++] = row_of_move(found->moves, k);
+    for (size_t k = 0; row && k < found->legible->n; k++)
+        row[(*n)++] = row_of_size(found->input, found->legible, k, conflicts + k);
     for (size_t k = 0; row && k < *n; k++) {
-        const double share = row[k].required > 0 ? row[k].has / row[k].required : 0;
-        row[k].share = row[k].area ? sqrt(share) : share;
+        const double share = row[k].required > 0 && row[k].measured ? row[k].has / row[k].required : 0;
+        row[k].share = row[k].area ? sqrt(share) : row[k].broken ? 0 : share;
     }
     if (row) qsort(row, *n, sizeof *row, by_share);
     return row;
@@ -103,8 +142,9 @@ static void add_shape(const window *w, const sunder_shape *shape, gis_text *to)
     gis_text_add(to, "\"/>");
 }
 
-static void add_picture(const gis_layer_input *input, const page_row *row, gis_text *to)
+static void add_picture(const page_row *row, gis_text *to)
 {
+    const gis_layer_input *input = row->input;
     const window w = window_of(row);
     gis_text_print(to, "<svg viewBox=\"0 0 %d %d\" role=\"img\">", SIDE, SIDE);
     add_shape(&w, gis_layer_original(input, row->a), to);
@@ -131,18 +171,20 @@ static void add_thing(const gis_layer_input *input, size_t thing, gis_text *to)
     }
 }
 
-static void add_row(const gis_layer_input *input, const page_row *row, gis_text *to)
+static void add_row(const page_row *row, gis_text *to)
 {
+    const gis_layer_input *input = row->input;
     const gis_page_unit unit = gis_page_unit_of(input->units.unit_metres == 1 ? "metre" : "");
     const double size[2] = {row->has, row->required};
     gis_text_add(to, "<tr><td>");
-    add_picture(input, row, to);
+    add_picture(row, to);
     gis_text_print(to, "</td><td>%s</td><td>", row->kind);
     add_thing(input, row->a, to);
     if (row->b != SIZE_MAX) gis_text_add(to, "<br>");
     add_thing(input, row->b, to);
     for (int k = 0; k < 2; k++) {
         gis_text_add(to, "</td><td class=\"number\">");
+        if (!row->measured) continue;
         if (row->area)
             gis_print_area(to, size[k], &unit);
         else
@@ -160,11 +202,11 @@ static const char head[] =
     ".shape{fill:#c9c5b8;stroke:#555;stroke-width:8;fill-rule:evenodd}"
     ".link{stroke:#c2185b;stroke-width:24;stroke-linecap:round}</style>\n<title>";
 
-bool gis_check_page_write(const gis_layer_input *input, const sunder_report *report, const gis_legible *legible,
-                          gis_text *to, gis_error *error)
+bool gis_check_page_write(const gis_findings *found, gis_text *to, gis_error *error)
 {
+    const gis_layer_input *input = found->input;
     size_t n;
-    page_row *row = collect_rows(report, legible, &n);
+    page_row *row = collect_rows(found, &n);
     if (!row) return gis_no_memory(error);
     gis_text_add(to, head);
     gis_escape_markup(to, gis_layer_title(input));
@@ -174,11 +216,12 @@ bool gis_check_page_write(const gis_layer_input *input, const sunder_report *rep
     gis_print_count(to, n);
     gis_text_add(to, n == 1 ? " finding in " : " findings in ");
     gis_print_count(to, input->n);
-    gis_text_add(to, " features, the worst first: that with the least share of what is required.");
+    gis_text_print(to, " features, the worst first: %sthat with the least share of what is required.",
+                   found->moves->report ? "rules that were broken since the original, then " : "");
     if (n > MOST_ROWS) gis_text_print(to, " The first %d are shown; the output layer has all.", MOST_ROWS);
     gis_text_add(to, "</p>\n<table><thead><tr><th></th><th>kind</th><th>features</th><th>has</th><th>required</th></tr>"
                      "</thead><tbody>\n");
-    for (size_t k = 0; k < n && k < MOST_ROWS; k++) add_row(input, &row[k], to);
+    for (size_t k = 0; k < n && k < MOST_ROWS; k++) add_row(&row[k], to);
     gis_text_add(to, "</tbody></table>\n</body></html>\n");
     free(row);
     return gis_text_get(to) || gis_no_memory(error);

@@ -28,17 +28,14 @@ static bool set_text(const gis_sheet *sheet, const char *text, const char *place
 /* ---- What is read ------------------------------------------------------------------------------------------------ */
 
 /* Makes the source the first operand. */
-static bool set_operands(const gis_sheet *sheet, const char *source, gis_options *options, gis_error *error)
+static bool set_operands(gis_options *options, gis_error *error)
 {
     if (options->n_operands >= options->command->most)
         return gis_fail_usage(error, "--spec names the layer that moves; leave out INPUT");
-    char *path = gis_sheet_dataset(sheet, source);
-    const bool ok = gis_options_own(options, path, &source, error);
-    CPLFree(path);
-    for (size_t k = options->n_operands; ok && k > 0; k--) options->operand[k] = options->operand[k - 1];
-    options->operand[0] = source;
+    for (size_t k = options->n_operands; k > 0; k--) options->operand[k] = options->operand[k - 1];
+    options->operand[0] = options->original_source;
     options->n_operands++;
-    return ok;
+    return true;
 }
 
 /* A result that check was given as INPUT has layers with the names of the sheet, if there are several. */
@@ -51,7 +48,10 @@ static bool set_source(const gis_sheet *sheet, struct json_object *layer, const 
         !gis_sheet_text(sheet, layer, place, "layer", &options->original_layer, error) ||
         !gis_sheet_text(sheet, layer, place, "crs", &crs, error))
         return false;
-    if (!result && !set_operands(sheet, source, options, error)) return false;
+    char *path = gis_sheet_dataset(sheet, source);
+    const bool kept = gis_options_own(options, path, &options->original_source, error);
+    CPLFree(path);
+    if (!kept || (!result && !set_operands(options, error))) return false;
     const char *name = !result ? options->original_layer : sheet->moving > 1 ? options->layer_name : NULL;
     return set_text(sheet, name, place, OPT_INPUT_LAYER, options, error) &&
            set_text(sheet, crs, place, OPT_INPUT_CRS, options, error);
