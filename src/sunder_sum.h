@@ -139,6 +139,51 @@ SUNDER_API sunder_status sunder_sum_vertex_text(const sunder_sum *sum, uint32_t 
 /* Sets *area to the exact area, as a text "num" or "num/den", which the caller frees with sunder_free(). */
 SUNDER_API sunder_status sunder_sum_area_text(const sunder_sum *sum, char **area, sunder_error *err);
 
+/* ---- Many no-fit polygons ----------------------------------------------------------------------------------- */
+
+/* A rotation about the origin: (x, y) becomes ((cosine * x - sine * y) / scale, (sine * x + cosine * y) / scale).
+ *
+ * It is rational if the three are integers with cosine^2 + sine^2 = scale^2, such as 3, 4, 5 or 0, 1, 1; then the
+ * rotated copy of a part is exact, unless the products are too long for doubles. All other values are taken as they
+ * are: coordinates of the copy are computed in doubles, and this copy is what is fitted, exactly. */
+typedef struct sunder_rotation {
+    double cosine, sine; /* finite */
+    double scale;        /* finite and above 0 */
+} sunder_rotation;
+
+/* The question for one no-fit polygon: parts and rotations by their numbers. */
+typedef struct sunder_nofit {
+    uint32_t fixed, moving;
+    uint32_t fixed_rotation, moving_rotation;
+} sunder_nofit;
+
+typedef struct sunder_nofits sunder_nofits;
+
+/* Computes the no-fit polygons P + (-Q) of many pairs of rotated parts, exactly, with their degenerate holes: the
+ * translations of the moving part with which its interior meets that of the fixed one. Pairs with the same parts and
+ * rotations share a result, also if two parts have the same rings, and two rotations the same numbers.
+ *
+ * part      [parts] they have to be valid during the call only
+ * rotation  [rotations]
+ * pair      [pairs]
+ * options   threads is the number of threads (0 or 1: the calling one), and progress is used; NULL: the defaults
+ * out       freed by the caller with sunder_nofits_free()
+ * Fails     SUNDER_EARG for a number or a rotation out of its range; as sunder_minkowski_sum() */
+SUNDER_EXPERIMENTAL sunder_status sunder_nofit_batch(const sunder_shape *const *part, size_t parts,
+                                                     const sunder_rotation *rotation, size_t rotations,
+                                                     const sunder_nofit *pair, size_t pairs,
+                                                     const sunder_sum_options *options, sunder_nofits **out,
+                                                     sunder_error *err);
+SUNDER_EXPERIMENTAL void sunder_nofits_free(sunder_nofits *nofits);
+/* Returns the number of different results. */
+SUNDER_EXPERIMENTAL size_t sunder_nofits_distinct(const sunder_nofits *nofits);
+/* Returns the number of the result of a pair, less than sunder_nofits_distinct(). */
+SUNDER_EXPERIMENTAL size_t sunder_nofits_result(const sunder_nofits *nofits, size_t pair);
+/* Returns a result. Its coordinates are those of the no-fit polygon times *scale, a whole number: 1 without rational
+ * rotations. *exact is set to whether no coordinate of the rotated parts was rounded. */
+SUNDER_EXPERIMENTAL const sunder_sum *sunder_nofits_sum(const sunder_nofits *nofits, size_t result, double *scale,
+                                                        bool *exact);
+
 /* ---- Growing and shrinking ---------------------------------------------------------------------------------- */
 
 typedef enum sunder_operation {

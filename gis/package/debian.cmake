@@ -1,4 +1,5 @@
-# What cpack makes Debian packages of: the program, the library, what is needed to build on it, and the QGIS plug-in.
+# What cpack makes Debian packages of: the program, the library, what is needed to build on it, the QGIS plug-in, and the
+# package for Python.
 #
 #   cmake --preset package && cmake --build --preset package && (cd build/package && cpack)
 #
@@ -21,7 +22,13 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE
     WORLD_READ WORLD_EXECUTE)
-set(CPACK_COMPONENTS_ALL program library development qgis-plugin)
+set(CPACK_COMPONENTS_ALL library development)
+if(SUNDER_PROGRAM)
+  list(APPEND CPACK_COMPONENTS_ALL program qgis-plugin)
+endif()
+if(TARGET sunder_python)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_MAINTAINER "${maintainer}")
@@ -70,5 +77,16 @@ set(CPACK_COMPONENT_QGIS-PLUGIN_DESCRIPTION
     "takes overlapping features of a map apart: plug-in for QGIS
 The commands of the program sunder as algorithms of the Processing toolbox.
 Once installed it is switched on in Plugins, Manage and Install Plugins.")
+
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-sunder)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11)")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-geopandas, python3-numpy, python3-shapely")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_LIST_DIR}/python/prerm)
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION
+    "takes overlapping features of a map apart: package for Python
+Exact Minkowski sums, least translations, routes, and the displacement of
+whole layers, for geometries of Shapely and GeoPandas or plain arrays. The
+library is part of the package; it needs GMP alone.")
 
 include(CPack)

@@ -79,8 +79,8 @@ static int add_contents(PyObject *module)
     if (add_type(module, "Shapes", &gis_py_shapes_spec, &state->shapes) < 0 ||
         add_type(module, "Sum", &gis_py_sum_spec, &state->sum) < 0)
         return -1;
-    PyMethodDef *const tables[] = {gis_py_shape_functions, gis_py_sum_functions, gis_py_pair_functions,
-                                   gis_py_route_functions, gis_py_layer_functions};
+    PyMethodDef *const tables[] = {gis_py_shape_functions, gis_py_sum_functions,   gis_py_pair_functions,
+                                   gis_py_nofit_functions, gis_py_route_functions, gis_py_layer_functions};
     for (size_t i = 0; i < sizeof tables / sizeof *tables; i++)
         if (PyModule_AddFunctions(module, tables[i]) < 0) return -1;
     return PyModule_AddStringConstant(module, "version", sunder_version());

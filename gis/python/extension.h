@@ -43,6 +43,6 @@ PyObject *gis_py_array(const char *format, size_t item, size_t rows, size_t colu
 
 /* The functions of the module, by topic; each table ends with an empty row. */
 extern PyMethodDef gis_py_shape_functions[], gis_py_sum_functions[], gis_py_pair_functions[], gis_py_route_functions[],
-    gis_py_layer_functions[];
+    gis_py_layer_functions[], gis_py_nofit_functions[];
 
 #endif

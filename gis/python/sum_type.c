@@ -12,7 +12,8 @@
 static void free_sum(PyObject *self)
 {
     PyTypeObject *type = Py_TYPE(self);
-    sunder_sum_free(((gis_py_sum *)self)->sum);
+    sunder_sum_free(((gis_py_sum *)self)->owned);
+    Py_XDECREF(((gis_py_sum *)self)->owner);
     PyObject_Free(self);
     Py_DECREF(type);
 }
@@ -20,10 +21,22 @@ static void free_sum(PyObject *self)
 PyObject *gis_py_sum_wrap(const gis_py_state *state, sunder_sum *sum)
 {
     gis_py_sum *out = PyObject_New(gis_py_sum, state->sum);
-    if (out)
-        out->sum = sum;
-    else
+    if (!out) {
         sunder_sum_free(sum);
+        return NULL;
+    }
+    out->sum = out->owned = sum;
+    out->owner = NULL;
+    return (PyObject *)out;
+}
+
+PyObject *gis_py_sum_lend(const gis_py_state *state, const sunder_sum *sum, PyObject *owner)
+{
+    gis_py_sum *out = PyObject_New(gis_py_sum, state->sum);
+    if (!out) return NULL;
+    out->sum = sum;
+    out->owned = NULL;
+    out->owner = Py_NewRef(owner);
     return (PyObject *)out;
 }
 

@@ -25,8 +25,9 @@ SEED = int(os.environ.get("SUNDER_SEED", "20"))
 SCALE = int(os.environ.get("SUNDER_TEST_SCALE", "1"))
 FINE = (ValueError, sunder.Error, MemoryError)
 SQUARE = [(0, 0), (4, 0), (4, 4), (0, 4)]
-NUMBERS = [0, 1, -1, 0.5, 3, 1e-300, 1e300, -1e308, float("nan"), float("inf"), -0.0, 2 ** 53 + 1, 10 ** 400, "x", None, [],
-           b"1", 1j]
+NUMBERS = [0, 1, -1, 0.5, 3, 1e-300, 1e300, -1e308, float("nan"), float("inf"), -0.0, 2 ** 53 + 1, 10 ** 400, "x",
+           None, [], b"1", 1j]
+TYPES = ["f4", "f2", "i1", "u8", "i8", "?", "c16", "O", "U3", "M8[s]", ">f8", ">i4", "g", "V8"]
 
 
 def mutate(rng, data):
@@ -54,7 +55,7 @@ def nest(rng, depth):
 
 
 def mapping(rng):
-    kinds = ["Polygon", "MultiPolygon", "Point", "LineString", "GeometryCollection", "Feature", "FeatureCollection", "X", 3]
+    kinds = ["Polygon", "MultiPolygon", "Point", "LineString", "GeometryCollection", "Feature", "FeatureCollection", 3]
     made = {"type": rng.choice(kinds)}
     made[rng.choice(["coordinates", "geometries", "geometry", "features"])] = rng.choice(
         [nest(rng, 4), None, SQUARE, [SQUARE], [made], {}, made])
@@ -68,7 +69,7 @@ def odd_array(rng, numpy):
     if kind == 0:
         return good[::rng.choice([-1, -2, 2])]
     if kind == 1:
-        return good.astype(rng.choice(["f4", "f2", "i1", "u8", "i8", "?", "c16", "O", "U3", "M8[s]", ">f8", ">i4", "g", "V8"]))
+        return good.astype(rng.choice(TYPES))
     if kind == 2:
         good[rng.randrange(4), rng.randrange(2)] = rng.choice([numpy.nan, numpy.inf, 1e308, -0.0, 5e-324])
         return good
@@ -106,7 +107,8 @@ def odd_ragged(rng):
         if kind == 1:
             made = [-1, *made]
         if kind == 2:
-            return rng.choice([None, [], "abc", 3, array.array("d", [0, 1]), [0, 2 ** 63], [0, 2 ** 70], array.array("b", [0])])
+            return rng.choice([None, [], "abc", 3, array.array("d", [0, 1]), [0, 2 ** 63], [0, 2 ** 70],
+                               array.array("b", [0])])
         return array.array(rng.choice("hilqLQ"), [abs(one) for one in made]) if kind > 3 else made
     points = array.array("d", [rng.choice([0, 1, 2, 3, 4]) for _ in range(2 * rng.randrange(12))])
     return (points if rng.random() < 0.8 else rng.choice([None, points[:1], array.array("f", points), b"x" * 16]),
@@ -128,10 +130,11 @@ class Hostile(unittest.TestCase):
         print("seed", SEED)
         wkb = sunder.Geometry.from_coordinates([SQUARE, [(1, 1), (1, 2), (2, 2)]]).wkb
         collection = b"\x01\x07\0\0\0\x02\0\0\0" + wkb + b"\x01\x01\0\0\0" + bytes(16)
-        sources = [lambda: mutate(rng, wkb), lambda: mutate(rng, collection), lambda: nest(rng, 4), lambda: mapping(rng),
-                   lambda: rng.choice(NUMBERS)]
+        sources = [lambda: mutate(rng, wkb), lambda: mutate(rng, collection), lambda: nest(rng, 4),
+                   lambda: mapping(rng), lambda: rng.choice(NUMBERS)]
         if numpy:
-            sources += [lambda: odd_array(rng, numpy)] * 3 + [lambda: [odd_array(rng, numpy) for _ in range(rng.randrange(3))]]
+            sources += [lambda: odd_array(rng, numpy)] * 3
+            sources.append(lambda: [odd_array(rng, numpy) for _ in range(rng.randrange(3))])
         else:
             print("NumPy is not installed: no arrays of odd types")
         taken = 0
@@ -159,10 +162,10 @@ class Hostile(unittest.TestCase):
     def test_arguments(self):
         """Numbers and arrays of demands of odd kinds."""
         rng = random.Random(SEED)
-        names = ["gap", "max_shift", "weight", "weights", "fixed", "ignored", "blocks", "touch_tolerance", "rows", "ease",
-                 "row_stiffness", "least_gap", "effort", "seed", "threads", "barriers", "prefer", "symbol", "contained"]
-        odd = [0, -1, 1e308, float("nan"), float("inf"), 2 ** 70, "x", None, [], [1], [1, 2], [1, "x"], ["a", None], b"1", {},
-               [(1, 2), (3, 4)], [[SQUARE]], SQUARE, [None, None], (0.5, 0.5), [1e-101, 1]]
+        names = ["gap", "max_shift", "weight", "weights", "fixed", "ignored", "blocks", "touch_tolerance", "rows",
+                 "ease", "row_stiffness", "least_gap", "effort", "seed", "threads", "barriers", "prefer", "symbol", "contained"]
+        odd = [0, -1, 1e308, float("nan"), float("inf"), 2 ** 70, "x", None, [], [1], [1, 2], [1, "x"], ["a", None],
+               b"1", {}, [(1, 2), (3, 4)], [[SQUARE]], SQUARE, [None, None], (0.5, 0.5), [1e-101, 1]]
         for k in range(2000 * SCALE):
             named = {rng.choice(names): rng.choice(odd) for _ in range(rng.randrange(1, 4))}
             named["effort"] = min(named["effort"], 1) if isinstance(named.get("effort"), (int, float)) else 0
@@ -196,7 +199,8 @@ def call_everything(k):
     """One round of all calls, failures included."""
     unit = [(0, 0), (1, 0), (1, 1), (0, 1 + k % 3)]
     total = sunder.minkowski_sum(unit, SQUARE, exact=True)
-    total.geometry, total.polygons, total.degenerate_points, total.area, total.__geo_interface__  # pylint: disable=W0104
+    for name in ("geometry", "polygons", "degenerate_points", "area", "__geo_interface__"):
+        getattr(total, name)
     sunder.no_fit_polygon(SQUARE, unit).degenerate_segments  # pylint: disable=W0106
     sunder.least_translation(unit, SQUARE)
     sunder.least_translations([unit, SQUARE], [SQUARE])
@@ -224,7 +228,7 @@ def resident():
 
 
 def watch_leaks(rounds):
-    """Prints by how much Python's memory, its blocks and the resident memory grew over the second half of the rounds."""
+    """Prints by how much Python's memory, its blocks and the resident memory grew in the second half of the rounds."""
     tracemalloc.start()
     for k in range(rounds):
         if k == rounds // 2:
@@ -253,12 +257,13 @@ class Leaks(unittest.TestCase):
     """Memory and references do not grow with the number of calls."""
 
     def worker(self, *command, **environment):
-        done = subprocess.run([*command], capture_output=True, text=True, check=False, env={**os.environ, **environment})
+        done = subprocess.run([*command], capture_output=True, text=True, check=False,
+                              env={**os.environ, **environment})
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         return done
 
     def test_memory(self):
-        """Ten thousand calls, twice: the second half leaves nothing. (Tables of Python grow by themselves, a little.)"""
+        """Ten thousand calls, twice: the second half leaves nothing. (Tables of Python itself grow a little.)"""
         rounds = 1000 * SCALE
         done = self.worker(sys.executable, __file__, "leaks", str(2 * rounds))
         traced, blocks, held = map(int, re.search(r"grown (-?\d+) (-?\d+) (-?\d+)", done.stdout).groups())
@@ -279,11 +284,12 @@ class Leaks(unittest.TestCase):
                 os.remove(name)
             gis = os.path.join(SOURCE, "gis")
             with open(os.path.join(gis, "python", "CMakeLists.txt"), encoding="utf-8") as file:
-                shared = re.findall(r"[a-z_/]+[.]c", re.search(r"set\(python_shared (.*?)\)", file.read(), re.S).group(1))
+                listed = re.search(r"set\(python_shared (.*?)\)", file.read(), re.S).group(1)
+            shared = re.findall(r"[a-z_/]+[.]c", listed)
             self.worker("cc", "-shared", "-fPIC", "-O1", "-D_XOPEN_SOURCE=700", "-std=c17", "-I" + include, "-I" + gis,
                         "-I" + os.path.join(SOURCE, "src"), *glob.glob(os.path.join(gis, "python", "*.c")),
-                        *(os.path.join(gis, name) for name in shared), os.path.join(build, "src", "libsunder.a"), "-lgmp",
-                        "-o", os.path.join(folder, "sunder", "_sunder.abi3.so"))
+                        *(os.path.join(gis, name) for name in shared), os.path.join(build, "src", "libsunder.a"),
+                        "-lgmp", "-o", os.path.join(folder, "sunder", "_sunder.abi3.so"))
             done = self.worker(python, __file__, "counts", str(200 * SCALE),
                                PYTHONPATH=folder + ":" + os.path.dirname(os.path.abspath(__file__)))
         references = int(re.search(r"grown (-?\d+)", done.stdout).group(1))

@@ -2,6 +2,7 @@
 import array
 import doctest
 import importlib
+import math
 import pkgutil
 import struct
 import unittest
@@ -114,6 +115,56 @@ class Cases(unittest.TestCase):
         least = sunder.least_translation(p, minus(q), exact=True)
         self.assertEqual(least.dx ** 2 + least.dy ** 2, Fraction(expected["mtv2"]))
         self.assertEqual(sunder.overlap(p, minus(q)), expected["origin_inside_open_sum"])
+
+
+class Nesting(unittest.TestCase):
+    """Many no-fit polygons in one call."""
+
+    def test_rotations(self):
+        parts = [SQUARE, TRIANGLE, [SQUARE, HOLE], list(SQUARE)]
+        turns = [(1, 0, 1), sunder.rotation(90), (3, 4, 5), (-5, 12, 13)]
+        pairs = [(a, b, r, s) for a in range(4) for b in range(4) for r in range(4) for s in range(4)]
+        found = sunder.no_fit_polygons(parts, pairs, turns, exact=True, threads=2)
+        self.assertEqual(len({id(one) for one in found}), 9 * 16)
+        for one, (a, b, r, s) in zip(found, pairs):
+            self.assertFalse(one.rounded)
+            # Turned back by the rotation of the fixed part, in the plane of fractions.
+            c, d, scale = turns[r]
+            back = [[[((c * x + d * y) / scale, (c * y - d * x) / scale) for x, y in ring] for ring in polygon]
+                    for polygon in one.polygons]
+            alone = sunder.no_fit_polygons(parts, [(a, b, 0, 4)], [*turns, relative(turns[r], turns[s])], exact=True)[0]
+            self.assertEqual(sorted(map(sorted, back[0])), sorted(map(sorted, alone.polygons[0])))
+            self.assertEqual(one.area, alone.area)
+        plain = sunder.no_fit_polygons(parts, [(2, 1)])[0]
+        self.assertEqual(plain.polygons, sunder.no_fit_polygon(parts[2], parts[1]).polygons)
+        turned = sunder.no_fit_polygons(parts, [(0, 1, 0, 2)], turns)[0]
+        rings = turned.__geo_interface__["coordinates"]
+        self.assertLessEqual(abs(sum(map(area, rings)) - turned.area), 1e-9)  # each coordinate is rounded
+
+    def test_angles(self):
+        for degrees in (0, 1, 29.5, 45, 90, 133.3, -77, 270, 359.9, 720.25):
+            c, s, scale = sunder.rotation(degrees)
+            self.assertEqual(c * c + s * s, scale * scale)
+            error = (math.degrees(math.atan2(s, c)) - degrees + 180) % 360 - 180
+            self.assertLessEqual(abs(math.radians(error)), 1e-6)
+
+    def test_errors(self):
+        for message, arguments in [("part 1: a text", ([SQUARE, "x"], [(0, 0)])), ("pair 0", ([SQUARE], [(0, 7)])),
+                                   ("pair 1 has 3", ([SQUARE], [(0, 0), (1, 2, 3)])), ("number 0", ([None], [(0, 0)])),
+                                   ("rotation 0", ([SQUARE], [(0, 0)], [(1, 0, 0)])),
+                                   ("rotation 0 has 2", ([SQUARE], [(0, 0)], [(1, 0)]))]:
+            with self.subTest(message):
+                self.assertRaisesRegex(ValueError, message, sunder.no_fit_polygons, *arguments)
+
+
+def relative(first, second):
+    """The rotation that leads from one to the other."""
+    (a, b, m), (c, d, n) = first, second
+    return a * c + b * d, a * d - b * c, m * n
+
+
+def area(ring):
+    return sum(x * v - u * y for (x, y), (u, v) in zip(ring, ring[1:])) / 2
 
 
 def pair(texts):

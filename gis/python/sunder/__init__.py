@@ -7,6 +7,7 @@ the interpreter's lock, and Ctrl-C ends it. Errors are `ValueError` for wrong in
 from sunder import _sunder
 from sunder._geometry import Geometry, InvalidGeometryWarning
 from sunder._layers import STATUSES, Barrier, Check, Conflict, Result, check, separate
+from sunder._nesting import no_fit_polygons, rotation
 from sunder._pairs import (CONTACTS, Distance, LeastTranslation, LeastTranslations, apart, distance, least_translation,
                            least_translations, overlap)
 from sunder._routes import Route, route
@@ -18,5 +19,5 @@ __version__ = _sunder.version
 __all__ = [
     "Barrier", "CONTACTS", "Check", "Conflict", "Distance", "Error", "Geometry", "InvalidGeometryWarning",
     "LeastTranslation", "LeastTranslations", "Result", "Route", "STATUSES", "Sum", "apart", "check", "close", "dilate",
-    "disc", "distance", "erode", "least_translation", "least_translations", "minkowski_sum", "no_fit_polygon", "open",
-    "overlap", "rectangle", "route", "separate", "square"]
+    "disc", "distance", "erode", "least_translation", "least_translations", "minkowski_sum", "no_fit_polygon",
+    "no_fit_polygons", "open", "overlap", "rectangle", "rotation", "route", "separate", "square"]

@@ -1,6 +1,8 @@
 """Minkowski sums, no-fit polygons, and mathematical morphology, exactly."""
+import math
+
 from sunder import _sunder
-from sunder._geometry import fraction, make, shape
+from sunder._geometry import Geometry, fraction, make, shape
 
 
 class Sum:
@@ -10,14 +12,19 @@ class Sum:
     `fractions.Fraction`, else floats, the nearest doubles.
     """
 
-    __slots__ = ("_sum", "_like", "_exact", "_rounded")
+    __slots__ = ("_sum", "_like", "_exact", "_scale", "_rounded", "rounded")
 
-    def __init__(self, made, like, exact):
-        self._sum, self._like, self._exact, self._rounded = made, like, exact, None
+    def __init__(self, made, like, exact, scale=1, rounded=False):
+        self._sum, self._like, self._exact, self._scale, self._rounded = made, like, exact, scale, None
+        #: Whether a rotated operand had to be rounded (`no_fit_polygons`); the sum is then that of rounded ones.
+        self.rounded = rounded
 
     def _round(self):
         if self._rounded is None:
-            self._rounded = self._sum.rounded(False)
+            wkb, deviation, mended = self._sum.rounded(False)
+            if self._scale != 1:
+                wkb, deviation = _divided(wkb, deviation, self._scale)
+            self._rounded = wkb, deviation, mended
         return self._rounded
 
     @property
@@ -42,7 +49,7 @@ class Sum:
     @property
     def area(self):
         """The exact area, a Fraction, in square units of the input."""
-        return fraction(self._sum.area())
+        return fraction(self._sum.area()) / self._scale ** 2
 
     @property
     def polygons(self):
@@ -64,7 +71,9 @@ class Sum:
         return self._pairs(self._sum.points(self._exact))
 
     def _pairs(self, pairs):
-        return [(fraction(x), fraction(y)) for x, y in pairs] if self._exact else list(pairs)
+        if self._exact:
+            return [(fraction(x) / self._scale, fraction(y) / self._scale) for x, y in pairs]
+        return list(pairs) if self._scale == 1 else [(x / self._scale, y / self._scale) for x, y in pairs]
 
     @property
     def __geo_interface__(self):
@@ -74,6 +83,25 @@ class Sum:
         polygons, holes, vertices, segments, points = self._sum.size()
         return (f"<sunder.Sum: {polygons} polygons, {holes} holes, {vertices} vertices, "
                 f"{segments} degenerate segments, {points} degenerate points>")
+
+
+def _divided(wkb, deviation, scale):
+    """Polygons in another scale. Rounding the quotients could make them invalid, which would be an error."""
+    mapping = Geometry(wkb).__geo_interface__
+
+    def divide(value):
+        return value / scale if isinstance(value, float) else tuple(map(divide, value))
+    coordinates = divide(mapping["coordinates"])
+    try:
+        made = _sunder.read({"type": mapping["type"], "coordinates": coordinates}, "geometry", "fail").wkb(0)
+    except ValueError as error:
+        raise _sunder.Error(f"rounded to doubles the polygons are not valid: {error}") from error
+    largest = max((abs(v) for v in _flat(coordinates)), default=0.0)
+    return made, deviation / scale * (1 + 1e-9) + math.ulp(largest)
+
+
+def _flat(value):
+    return [value] if isinstance(value, float) else [v for one in value for v in _flat(one)]
 
 
 def minkowski_sum(a, b, *, exact=False, invalid="repair", progress=None):
