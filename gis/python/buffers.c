@@ -126,9 +126,19 @@ static void *allocate(size_t n, size_t size)
     return memory;
 }
 
+/* Are the elements those of an array in C, of this letter, one after the other? */
+static bool is_plain(const Py_buffer *view, const storage *how, const char *letters)
+{
+    return how->size == 8 && !how->swapped && strchr(letters, how->letter) && PyBuffer_IsContiguous(view, 'C');
+}
+
 /* Copies x and y of each row; ndim is 2, or 1 for pairs in sequence. */
 static bool copy_rows(const Py_buffer *view, const storage *how, const char *who, size_t n, double *xy)
 {
+    if (is_plain(view, how, "d") && (view->ndim == 1 || view->shape[1] == 2)) {
+        if (n > 0) memcpy(xy, view->buf, 2 * n * sizeof *xy);
+        return true;
+    }
     for (size_t i = 0; i < n; i++)
         for (size_t k = 0; k < 2; k++) {
             const Py_ssize_t offset = view->ndim == 2
@@ -250,7 +260,9 @@ bool gis_py_integers(PyObject *object, const char *who, size_t n, int64_t **out,
     *count = from.n;
     *out = allocate(from.n, sizeof **out);
     bool done = *out != NULL;
-    for (size_t i = 0; done && i < from.n; i++) {
+    const bool plain = done && !from.sequence && is_plain(&from.view, &from.how, "lq");
+    if (plain && from.n > 0) memcpy(*out, from.view.buf, from.n * sizeof **out);
+    for (size_t i = 0; done && !plain && i < from.n; i++) {
         element e;
         done = next_number(&from, who, i, true, &e);
         if (done && !e.is_integer) done = gis_py_wrong(who, "element %zu is not an integer", i);

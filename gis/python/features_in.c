@@ -6,6 +6,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 void gis_py_features_clear(gis_py_features *features)
 {
@@ -157,24 +158,40 @@ typedef struct ragged {
     size_t vertices, rings, polygons, geometries;
 } ragged;
 
-static bool add_polygon(gis_py_features *to, const ragged *from, size_t p)
+/* Makes room for all of it, in one step for each array. */
+static bool reserve_ragged(gis_polygons *set, const ragged *from)
+{
+    return or_no_memory(
+        gis_polygons_reserve(set, from->vertices, NULL) &&
+        gis_array_reserve(&set->ring_end, &set->ring_capacity, set->rings + from->rings + 1, sizeof *set->ring_end) &&
+        gis_array_reserve(&set->poly_end, &set->poly_capacity, set->polygons + from->polygons + 1,
+                          sizeof *set->poly_end));
+}
+
+/* Copies polygon p to the room that was made; as by gis_polygons_end_closed_ring(), closing vertices are dropped. */
+static void copy_polygon(gis_polygons *set, const ragged *from, size_t p)
 {
     for (int64_t r = p ? from->polygon_end[p - 1] : 0; r < from->polygon_end[p]; r++) {
-        for (int64_t v = r ? from->ring_end[r - 1] : 0; v < from->ring_end[r]; v++)
-            if (!gis_py_vertex(&to->areas, from->xy[2 * v], from->xy[2 * v + 1])) return false;
-        if (!gis_py_end_ring(to)) return false;
+        const size_t first = r ? (size_t)from->ring_end[r - 1] : 0;
+        size_t n = (size_t)from->ring_end[r] - first;
+        const double *xy = from->xy + 2 * first;
+        if (n > 1 && memcmp(xy, xy + 2 * (n - 1), 2 * sizeof *xy) == 0) n--;
+        if (n > 0) memcpy(set->xy + 2 * set->vertices, xy, 2 * n * sizeof *xy);
+        set->vertices += n;
+        set->ring_end[set->rings++] = set->vertices;
     }
-    return gis_py_end_polygon(to);
+    set->poly_end[set->polygons++] = set->rings;
 }
 
 static bool add_ragged(gis_py_features *to, const ragged *from)
 {
     size_t p = 0;
+    if (!reserve_ragged(&to->areas, from)) return false;
     for (size_t i = 0; i < from->geometries; i++) {
         const size_t end = from->geometry_end ? (size_t)from->geometry_end[i] : i + 1;
         for (; p < end; p++) {
             /* An empty polygon is no polygon. */
-            if (from->polygon_end[p] > (p ? from->polygon_end[p - 1] : 0) && !add_polygon(to, from, p)) return false;
+            if (from->polygon_end[p] > (p ? from->polygon_end[p - 1] : 0)) copy_polygon(&to->areas, from, p);
         }
         if (!end_feature(to)) return false;
     }

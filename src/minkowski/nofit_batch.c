@@ -24,8 +24,9 @@
 typedef struct copy {
     uint32_t part;
     double cosine, sine;
-    bool divided;        /* these are quotients that were rounded */
-    sunder_shape *shape; /* NULL: not made yet */
+    bool divided;              /* these are quotients that were rounded */
+    const sunder_shape *shape; /* NULL: not made yet; the part itself, or ... */
+    sunder_shape *made;        /* ... this copy */
     bool exact;
 } copy;
 
@@ -207,7 +208,15 @@ static sunder_status make_copies(void *context, size_t begin, size_t end, sunder
     for (size_t k = begin; status == SUNDER_OK && k < end; k++) {
         copy *c = &b->out->copy[k];
         if (c->shape) continue;
-        status = sunder_i_rotated_copy(b->part[c->part], c->cosine, c->sine, &c->shape, &c->exact, err);
+        c->exact = true;
+        if (c->sine == 0 && c->cosine == 1) {
+            c->shape = b->part[c->part];
+            continue;
+        }
+        status = c->sine == 0 && c->cosine == -1
+                     ? sunder_shape_reflect(b->part[c->part], &c->made, err)
+                     : sunder_i_rotated_copy(b->part[c->part], c->cosine, c->sine, &c->made, &c->exact, err);
+        c->shape = c->made;
         c->exact = c->exact && !c->divided;
     }
     return status;
@@ -328,7 +337,7 @@ sunder_status sunder_nofit_batch(const sunder_shape *const *part, size_t parts, 
 void sunder_nofits_free(sunder_nofits *nofits)
 {
     if (!nofits) return;
-    for (size_t k = 0; k < nofits->copies; k++) sunder_shape_free(nofits->copy[k].shape);
+    for (size_t k = 0; k < nofits->copies; k++) sunder_shape_free(nofits->copy[k].made);
     for (size_t k = 0; k < nofits->tasks; k++) sunder_sum_free(nofits->task[k].sum);
     sunder_i_free_all(nofits->copy, nofits->task, nofits->result, nofits);
 }

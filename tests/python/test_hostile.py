@@ -163,7 +163,8 @@ class Hostile(unittest.TestCase):
         """Numbers and arrays of demands of odd kinds."""
         rng = random.Random(SEED)
         names = ["gap", "max_shift", "weight", "weights", "fixed", "ignored", "blocks", "touch_tolerance", "rows",
-                 "ease", "row_stiffness", "least_gap", "effort", "seed", "threads", "barriers", "prefer", "symbol", "contained"]
+                 "ease", "row_stiffness", "least_gap", "effort", "seed", "threads", "barriers", "prefer",
+                 "symbol", "contained"]
         odd = [0, -1, 1e308, float("nan"), float("inf"), 2 ** 70, "x", None, [], [1], [1, 2], [1, "x"], ["a", None],
                b"1", {}, [(1, 2), (3, 4)], [[SQUARE]], SQUARE, [None, None], (0.5, 0.5), [1e-101, 1]]
         for k in range(2000 * SCALE):

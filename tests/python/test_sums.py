@@ -1,15 +1,18 @@
 """Sums, pairs and routes from Python: forms of input, exact cases, errors, and the examples in docstrings."""
 import array
+import ast
 import doctest
 import importlib
 import math
+import os
 import pkgutil
 import struct
 import unittest
 from fractions import Fraction
 
 import sunder
-from support import SHARED, cases, main, module
+from sunder import _sunder
+from support import SHARED, SOURCE, cases, main, module
 
 SQUARE = [(0, 0), (4, 0), (4, 4), (0, 4)]
 TRIANGLE = [(0, 0), (1, 0), (0, 1)]
@@ -231,6 +234,13 @@ class Examples(unittest.TestCase):
             self.assertEqual(result.failed, 0)
             tried += result.attempted
         self.assertGreater(tried, 20)
+        # The stub names what the extension has.
+        with open(os.path.join(SOURCE, "gis", "python", "sunder", "_sunder.pyi"), encoding="utf-8") as file:
+            stub = {node.name: node for node in ast.parse(file.read()).body if hasattr(node, "name")}
+        self.assertEqual(sorted(stub), sorted(n for n in dir(_sunder) if not n.startswith("_") and n != "version"))
+        for kind in ("Shapes", "Sum"):
+            self.assertEqual(sorted(one.name for one in stub[kind].body if not one.name.startswith("_")),
+                             sorted(n for n in dir(getattr(_sunder, kind)) if not n.startswith("_")))
         for name in sunder.__all__:
             self.assertTrue(getattr(sunder, name).__doc__, name)
 
