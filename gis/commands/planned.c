@@ -49,11 +49,12 @@ static char *absolute_value(const gis_option *option, const char *value)
     }
 }
 
-static bool store_gaps(const gis_options *options, gis_plan *plan, gis_error *error)
+static bool store_sheet(const gis_options *options, gis_plan *plan, gis_error *error)
 {
     const char *const *barrier = options->list[OPT_BARRIER];
     size_t barriers = 0;
     gis_json json = {0};
+    if (options->sheet && !(plan->sheet = CPLStrdup(options->sheet))) return gis_no_memory(error);
     if (!options->gap_classes) return true;
     while (barrier && barrier[barriers]) barriers++;
     gis_sheet_put_gaps(&json, options->gap_classes, barriers);
@@ -76,7 +77,7 @@ bool gis_planned_arguments(const gis_options *options, gis_plan *plan, gis_error
     char *input = gis_plan_absolute_source(options->operand[0]);
     done = done && gis_plan_add_argument(plan, "--", NULL, error) && gis_plan_add_argument(plan, input, NULL, error);
     CPLFree(input);
-    return done && store_gaps(options, plan, error);
+    return done && store_sheet(options, plan, error);
 }
 
 /* ---- Parsing the stored arguments -------------------------------------------------------------------------------- */
@@ -134,6 +135,7 @@ bool gis_planned_parse(gis_planned *planned, const gis_options *now, const char 
         !gis_options_parse(find_separate(), (int)planned->words, planned->word, &planned->options, error))
         return false;
     gis_configure(&planned->options);
+    if (planned->plan.sheet && *planned->plan.sheet) planned->options.sheet = planned->plan.sheet;
     const char *gaps = planned->plan.gaps;
     return !gaps || !*gaps || gis_sheet_take_gaps(gaps, &planned->options, &planned->sheet, error);
 }

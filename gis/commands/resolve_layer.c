@@ -292,6 +292,7 @@ static bool resolve_one(const gis_options *options, gis_layer_input_request *out
         .links = {.radius = gis_resolve_length(options, OPT_LINKS_RADIUS)},
         .written = options->text[OPT_OUTPUT_LAYER],
         .name = options->layer_name,
+        .sheet = options->sheet,
         .id_field = options->text[OPT_ID_FIELD],
         .symbol = options->text[OPT_SYMBOL],
         .symbol_field = options->text[OPT_SYMBOL_FIELD],

@@ -39,6 +39,7 @@ typedef struct gis_layer_input_request {
     const char *written; /* the name that the layer has in results, if it is given */
     const char *name;    /* in the output, if several layers move together */
     const char *title;   /* of all of them */
+    const char *sheet;   /* the specification of the run, as JSON; NULL: there is none */
     /* [more] the other layers that move together with this one, each with rules of its own for its features; what
      * concerns the whole run is taken from this one. Owned. */
     struct gis_layer_input_request *with;

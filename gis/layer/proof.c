@@ -44,6 +44,7 @@ static gis_proof_gaps gaps_of(const gis_layer_input *input)
 gis_proof_head gis_proof_head_of(const gis_layer_input *input, const sunder_layer_summary *summary)
 {
     return (gis_proof_head){.layer = gis_source_name(input->source),
+                            .sheet = input->request->sheet,
                             .how = gis_layer_core_options(input),
                             .max_shift = input->max_shift,
                             .gaps = gaps_of(input),
@@ -230,8 +231,8 @@ static bool put_trees(gis_proof_lines *lines, gis_json *line, FILE *to, gis_erro
 
 bool gis_proof_write(const gis_layer_input *input, const sunder_report *report, FILE *to, gis_error *error)
 {
-    const gis_proof_things things = {
-        input, input->n, call_feature, call_barrier, demands_of, input->gap_class ? class_of : NULL};
+    const gis_proof_things things = {input,        input->n,   call_feature,
+                                     call_barrier, demands_of, input->gap_class ? class_of : NULL};
     gis_proof_lines lines;
     gis_proof_choices choices = {0};
     gis_json line = {0};

@@ -557,6 +557,10 @@ void gis_proof_head_line(gis_json *json, const gis_proof_head *head)
     gis_json_put_size(json, "conflicts", head->conflicts);
     gis_json_put_size(json, "trees", head->trees);
     if (head->hide) put_hiding(json, head);
+    if (head->sheet) {
+        gis_json_key(json, "spec");
+        gis_json_raw(json, head->sheet);
+    }
     end_line(json);
 }
 

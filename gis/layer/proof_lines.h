@@ -95,7 +95,7 @@ typedef struct gis_proof_gaps {
 } gis_proof_gaps;
 
 typedef struct gis_proof_head {
-    const char *layer;
+    const char *layer, *sheet; /* sheet: the specification of the run; NULL: there is none */
     sunder_layer_options how;
     double max_shift;
     gis_proof_gaps gaps;

@@ -5,6 +5,7 @@
 #include "page/escape.h"
 #include "page/number.h"
 #include "page/page_words.h"
+#include "page/sections.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -222,7 +223,9 @@ bool gis_check_page_write(const gis_findings *found, gis_text *to, gis_error *er
     gis_text_add(to, "</p>\n<table><thead><tr><th></th><th>kind</th><th>features</th><th>has</th><th>required</th></tr>"
                      "</thead><tbody>\n");
     for (size_t k = 0; k < n && k < MOST_ROWS; k++) add_row(&row[k], to);
-    gis_text_add(to, "</tbody></table>\n</body></html>\n");
+    gis_text_add(to, "</tbody></table>\n");
+    const bool ok = gis_page_add_sheet(input->request->sheet, to, error);
+    gis_text_add(to, "</body></html>\n");
     free(row);
-    return gis_text_get(to) || gis_no_memory(error);
+    return ok && (gis_text_get(to) || gis_no_memory(error));
 }

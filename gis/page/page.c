@@ -44,6 +44,7 @@ static const struct {
     {"blocked", NULL, gis_page_blocked},
     {"hidden", NULL, gis_page_hidden},
     {"certificate", NULL, gis_page_certificate},
+    {"sheet", NULL, gis_page_sheet},
     {"colophon", NULL, gis_page_colophon},
 };
 

@@ -18,7 +18,11 @@ gis_page_section gis_page_rows;        /* the rows of neighbours, with close-ups
 gis_page_section gis_page_blocked;     /* the table of remaining conflicts */
 gis_page_section gis_page_hidden;      /* hidden features: sums by class, the table, close-ups */
 gis_page_section gis_page_certificate; /* what is proved, and the options of the run */
+gis_page_section gis_page_sheet;       /* the specification of the run, if there is one */
 gis_page_section gis_page_colophon;    /* version and date */
+
+/* Writes a specification, given as JSON; NULL: nothing. */
+bool gis_page_add_sheet(const char *sheet, gis_text *to, gis_error *error);
 
 /* Returns the number of pairs in conflict between blocks, of all kinds. */
 size_t gis_page_conflict_count(const sunder_conflict_counts *counts);

@@ -29,18 +29,32 @@ for how in whole parts; do
     [ $how = parts ] && more=(--max-memory 110M)
     expect 0 separate --spec sheet.json $how.gpkg -q --allow-conflicts --proof $how.jsonl "${more[@]}"
 done
-expect 0 plan --spec sheet.json plan.dir --shards 2 -q --allow-conflicts --proof shards.jsonl
+expect 0 plan --spec sheet.json plan.dir --shards 2 -q --allow-conflicts --proof shards.jsonl --report merged.html
 for k in 1 2; do expect 0 separate --shard $k plan.dir -q; done
 mv sheet.json kept.json # a plan does not need it again
-expect 0 merge plan.dir shards.gpkg -q
+expect 0 merge plan.dir shards.gpkg -q --stats merged.json
 mv kept.json sheet.json
+# The sheet stands in the statistics, in the proof and on the page, of a merge, too, with the options of the run in it.
+expect 0 separate --spec sheet.json paged.gpkg -q --allow-conflicts --max-shift 2 --stats paged.json --report paged.html --proof paged.jsonl
+expect 0 separate --spec sheet.json --print-spec --max-shift 2
+same "$(jq -cS .spec paged.json)" "$(jq -cS . out)" 'the sheet in the statistics:'
+same "$(head -1 paged.jsonl | jq -cS .spec)" "$(jq -cS . out)" 'the sheet in the proof:'
+same "$(jq -cS .spec merged.json)" "$(head -1 whole.jsonl | jq -cS .spec)" 'the sheet of a merge:'
+for page in paged merged; do
+    grep -q 'Specification</summary>' $page.html || fail "$page.html lacks the sheet"
+done
+python3 - paged.html >from_page.json <<'X' || fail "the sheet on the page"
+import html, re, sys
+print(html.unescape(re.search(r"<summary>Specification</summary>\s*<pre>(.*?)</pre>", open(sys.argv[1], encoding="utf-8").read(), re.S)[1]))
+X
+same "$(jq -cS . from_page.json)" "$(jq -cS . out)" 'the sheet on the page:'
 for how in parts shards; do
     cmp -s whole.gpkg $how.gpkg || fail "$how: other bytes"
     cmp -s whole.jsonl $how.jsonl || fail "$how: another proof"
 done
 same "$(jq -c '.gaps.class' plan.dir/plan.json)" '{"field":"kind"}' 'the gaps of the plan:'
 jq '.gaps[-1].gap += 0.25' < <(sed 1d sheet.json) >other.json
-expect 1 plan --spec other.json plan.dir --shards 2 -q --allow-conflicts --proof shards.jsonl
+expect 1 plan --spec other.json plan.dir --shards 2 -q --allow-conflicts --proof shards.jsonl --report merged.html
 grep -q 'another command line' err || fail "a plan of other gaps: $(cat err)"
 
 # ---- Several layers that move: each as it came, with what its own gaps and rules say

@@ -67,6 +67,8 @@ def read_options(words):
     options = parser.parse_args(words)
     options.sheet = Sheet(options.spec) if options.spec else None
     if options.sheet:
+        own = {name for name, value in vars(options).items() if value != parser.get_default(name)}
+        options.sheet.alone = own <= {"proof", "input", "spec", "sheet", "layer", "result"}
         options = parser.parse_args([*options.sheet.words(), *words], argparse.Namespace(sheet=options.sheet))
     options.points = bool(options.symbol or options.symbol_field)  # symbols may always jump
     options.allow_jumps = options.allow_jumps or options.points
@@ -81,6 +83,8 @@ def read_options(words):
 
 def check_header(head, options, layer, gaps):
     told_of_classes = gaps.told() if gaps else {}
+    if options.sheet and options.sheet.alone:
+        demand(head.get("spec") == options.sheet.told, "the proof is of another sheet")
     for name, told, given in (("layer", head["layer"], layer), ("gap", head["gap"], options.gap),
                               ("least_gap", head.get("least_gap"), options.least_gap),
                               ("max_shift", head["max_shift"], options.max_shift),

@@ -64,6 +64,11 @@ def not_negative(value, where):
     return found
 
 
+def sheet(value, where):
+    demand(type(value) is dict, "no sheet:", where)
+    return value
+
+
 def or_null(kind):
     return lambda value, where: None if value is None else kind(value, where)
 
@@ -210,7 +215,7 @@ head = members({"sunder_proof": whole, "layer": name, "gap": not_negative, "max_
                 "contained": one_of(("block", "ignore", "separate")), "allow_jumps": boolean,
                 "lower_bound": not_negative, "conflicts": whole, "trees": whole},
                {"row_stiffness": all_of(not_negative, 2, 2), "ease": positive, "least_gap": not_negative, "hide": hide,
-                "classes": all_of(name), "gaps": table, "least_gaps": table})
+                "classes": all_of(name), "gaps": table, "least_gaps": table, "spec": sheet})
 block = members({"block": all_of(integer, 2)})
 hidden = members({"hidden": whole, "fid": integer})
 polygons = all_of(all_of(all_of(place, 3), 1), 1)

@@ -13,7 +13,8 @@ typedef struct gis_plan {
     char **argument; /* [arguments] of separate: the options, then "--" and INPUT. Owned, as everything that is pointed
                       * to */
     size_t arguments;
-    char *gaps; /* gaps by classes, as gis_sheet_put_gaps() has them; empty or NULL: there are none */
+    char *gaps;  /* gaps by classes, as gis_sheet_put_gaps() has them; empty or NULL: there are none */
+    char *sheet; /* the specification of the run, as JSON; empty or NULL: there is none */
     unsigned shards;
     double memory; /* bytes that a process may take */
     gis_layer_facts facts;
@@ -30,7 +31,7 @@ bool gis_plan_write(const gis_plan *plan, const char *directory, gis_error *erro
 /* Reads the plan of a directory. Fails, naming the directory, if there is none, if the plan was made by another version
  * or changed, or if the directory belongs to a user other than this one or root or may be written by all users. */
 bool gis_plan_read(const char *directory, gis_plan *plan, gis_error *error);
-/* Do both plans have the same arguments, gaps by classes, number of shards and memory? */
+/* Do both plans have the same arguments, specification, number of shards and memory? */
 bool gis_plan_same_call(const gis_plan *a, const gis_plan *b);
 
 /* ---- plan_checks.c: do the files beside the plan belong to it? --------------------------------------------------- */

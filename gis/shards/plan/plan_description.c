@@ -71,6 +71,11 @@ static void describe_plan(gis_json *out, const gis_plan *plan, const gis_plan_lo
         gis_json_raw(out, plan->gaps);
         gis_json_line(out);
     }
+    if (plan->sheet && *plan->sheet) {
+        gis_json_key(out, "spec");
+        gis_json_raw(out, plan->sheet);
+        gis_json_line(out);
+    }
     gis_json_put_string(out, "layer", plan->facts.name);
     gis_json_put_size(out, "features", plan->facts.source.features);
     gis_json_put_size(out, "vertices", plan->facts.vertices);

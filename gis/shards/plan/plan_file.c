@@ -57,6 +57,7 @@ void gis_plan_clear(gis_plan *plan)
     for (size_t k = 0; k < plan->arguments; k++) free(plan->argument[k]);
     free(plan->argument);
     CPLFree(plan->gaps);
+    CPLFree(plan->sheet);
     gis_layer_facts_clear(&plan->facts);
     *plan = (gis_plan){0};
 }
@@ -64,7 +65,8 @@ void gis_plan_clear(gis_plan *plan)
 bool gis_plan_same_call(const gis_plan *a, const gis_plan *b)
 {
     bool same = a->arguments == b->arguments && a->shards == b->shards && a->memory == b->memory &&
-                strcmp(a->gaps ? a->gaps : "", b->gaps ? b->gaps : "") == 0;
+                strcmp(a->gaps ? a->gaps : "", b->gaps ? b->gaps : "") == 0 &&
+                strcmp(a->sheet ? a->sheet : "", b->sheet ? b->sheet : "") == 0;
     for (size_t k = 0; same && k < a->arguments; k++) same = strcmp(a->argument[k], b->argument[k]) == 0;
     return same;
 }
@@ -101,6 +103,7 @@ static void fill_bytes(const gis_plan *plan, gis_text *to)
     gis_text_add_bytes(to, (const char *)&facts, sizeof facts);
     add_text(to, plan->facts.name);
     add_text(to, plan->gaps ? plan->gaps : "");
+    add_text(to, plan->sheet ? plan->sheet : "");
     for (size_t k = 0; k < plan->arguments; k++) add_text(to, plan->argument[k]);
     const uint64_t checksum = to->failed ? 0 : gis_checksum_of(0, to->at, to->length);
     gis_text_add_bytes(to, (const char *)&checksum, sizeof checksum);
@@ -157,14 +160,15 @@ static bool take_plan(plan_bytes *from, gis_plan *plan, gis_error *error)
     plan->status = numbers.status;
     plan->facts.name = take_text(from);
     plan->gaps = plan->facts.name ? take_text(from) : NULL;
-    for (uint64_t k = 0; plan->gaps && k < numbers.arguments; k++) {
+    plan->sheet = plan->gaps ? take_text(from) : NULL;
+    for (uint64_t k = 0; plan->sheet && k < numbers.arguments; k++) {
         char *text = take_text(from);
         const bool added = text && gis_plan_add_argument(plan, text, NULL, error);
         CPLFree(text);
         if (!added) return false;
     }
     const OGRFieldType id = plan->facts.id_type;
-    return plan->gaps && plan->shards > 0 && plan->shards <= GIS_PLAN_MOST_SHARDS && from->left == 0 &&
+    return plan->sheet && plan->shards > 0 && plan->shards <= GIS_PLAN_MOST_SHARDS && from->left == 0 &&
            (!plan->facts.has_id || id == OFTInteger64 || id == OFTReal || id == OFTString);
 }
 
