@@ -59,7 +59,7 @@ grep -q 'another command line' err || fail "a plan of other gaps: $(cat err)"
 
 # ---- Several layers that move: each as it came, with what its own gaps and rules say
 any=0
-for seed in 1 2 3 4; do
+for seed in $(seq $((4 * ${SUNDER_TEST_SCALE:-1}))); do
     rm -f town2.gpkg
     worlds make town2.gpkg sheet2.json $seed together
     expect 0 separate --spec sheet2.json together.gpkg --overwrite -q --allow-conflicts --stats stats.json --report page.html
@@ -81,6 +81,21 @@ expect 1 separate --spec sheet2.json named.gpkg -q --allow-conflicts --update
 grep -q 'has a layer marks already' err || fail "$(cat err)"
 expect 1 separate --spec sheet2.json together.shp -q --allow-conflicts
 grep -q 'holds one layer a file' err || fail "$(cat err)"
+
+# The numbers of an agency: two layers that move, roads of five widths, what has no room is left out by its class.
+cp "$SUNDER_SOURCE/docs/examples/topographic_100000.json" agency.json
+any=0
+for seed in 1 2; do
+    rm -f town.gpkg.kept && mv town.gpkg town.gpkg.kept
+    worlds make_agency town.gpkg $seed
+    expect 0 separate --spec agency.json agency.gpkg --overwrite -q --allow-conflicts --effort 0.1 --stats stats.json
+    read -r pairs near found listed < <(worlds judge agency.gpkg town.gpkg agency.json)
+    [ "$near" = "$found" ] && [ "$listed" = "$found" ] || fail "agency $seed: $near of $pairs pairs are too near, $listed are listed"
+    [ "$(jq '.conflicts.before | add' stats.json)" -gt 40 ] || fail "agency $seed: hardly a conflict"
+    any=$((any + $(jq .hidden.count stats.json)))
+    mv town.gpkg.kept town.gpkg
+done
+[ "$any" -gt 0 ] || fail "nothing was left out"
 
 # Only the layer that says so is hidden. In each of two layers two houses overlap, and can hardly move.
 for k in 0 1; do
