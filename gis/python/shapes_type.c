@@ -3,7 +3,7 @@
 #include "python/shapes_type.h"
 
 #include "geometry/polygons_wkb.h"
-#include "python/buffers.h"
+#include "python/shapes_out.h"
 #include "python/watched_call.h"
 
 #include <stdio.h>
@@ -254,6 +254,8 @@ static PyMethodDef methods[] = {
     {"invalid", get_invalid, METH_NOARGS, "List of (number, reason, skipped) of what was invalid."},
     {"contents", get_contents, METH_NOARGS, "(n,) uint8: 0 nothing, 1 polygons, 2 lines, 3 points."},
     {"point", get_point, METH_VARARGS, "point(i): the smallest point of geometry i by x, then y, or None."},
+    {"ragged", gis_py_shapes_ragged, METH_NOARGS, "Coordinates, and offsets of rings, polygons and geometries."},
+    {"moved", gis_py_shapes_moved, METH_VARARGS, "moved(moves) -> Shapes: moves are (n, 2) float64."},
     {"wkb", get_wkb, METH_VARARGS, "wkb(i): the polygons of geometry i as they were given, as well-known binary."},
     {NULL, NULL, 0, NULL},
 };

@@ -205,6 +205,8 @@ def call_everything(k):
     sunder.no_fit_polygon(SQUARE, unit).degenerate_segments  # pylint: disable=W0106
     sunder.least_translation(unit, SQUARE)
     sunder.least_translations([unit, SQUARE], [SQUARE])
+    sunder.from_ragged(*sunder.to_ragged([unit, SQUARE])).moved(sunder.least_translations([unit] * 2, [SQUARE]).moves)
+    sunder.no_fit_polygons([unit, SQUARE], [(0, 1), (1, 0)])
     sunder.overlap(unit, SQUARE), sunder.apart(unit, SQUARE), sunder.distance(unit, SQUARE)
     if k % 10 == 0:
         sunder.route([[(2, -3), (3, -3), (3, 3), (2, 3)]], sunder.square(2), (0, 0), (5, 0), progress=lambda _: None)

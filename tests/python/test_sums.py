@@ -89,6 +89,41 @@ class Forms(unittest.TestCase):
         self.assertEqual(shapely.shape(total).area, 24.5)
 
 
+class Ragged(unittest.TestCase):
+    """Coordinates in arrays with offsets, in and out."""
+
+    def test_round(self):
+        several = {"type": "MultiPolygon", "coordinates": [[SQUARE, HOLE], [[(9, 9), (10, 9), (9, 10)]]]}
+        geometries = [SQUARE, None, several]
+        xy, offsets = sunder.to_ragged(geometries)
+        self.assertEqual([list(map(int, one)) for one in offsets], [[0, 5, 10, 15, 19], [0, 1, 3, 4], [0, 1, 1, 3]])
+        again = sunder.from_ragged(xy, offsets)
+        alike = _sunder.read_all(geometries, "a", "fail")
+        self.assertEqual([again.wkb(k) for k in range(3)], [alike.wkb(k) for k in range(3)])
+        apart = sunder.separate(again, 1)
+        self.assertEqual(apart.status, sunder.separate(geometries, 1).status)
+        moved = sunder.to_ragged(apart.geometries)[0].tolist()
+        self.assertEqual(moved[0], [xy.tolist()[0][0] + apart.dx[0], xy.tolist()[0][1] + apart.dy[0]])
+        first = sunder.from_ragged(xy[:5], ([0, 5], [0, 1]))
+        self.assertEqual(sunder.least_translations(again, first).distance.tolist(),
+                         sunder.least_translations(geometries, [SQUARE]).distance.tolist())
+        for message, arguments in [("ring offsets: offset 1 is 99", (xy, ([0, 99], [0, 1]))),
+                                   ("offsets: 1 arrays", (xy, [[0]])),
+                                   ("begin with 0", (xy, ([1, 5], [0, 1]))), ("not an array", ([], ([0], [0]))),
+                                   ("geometry 0: polygon 0", (xy[:2], ([0, 2], [0, 1])))]:
+            with self.subTest(message):
+                self.assertRaisesRegex(ValueError, message, sunder.from_ragged, *arguments, invalid="fail")
+        self.assertRaisesRegex(ValueError, "moves: 2 of them", again.moved, array.array("d", [0] * 4))
+        self.assertEqual(len(sunder.separate(sunder.from_ragged(xy[:0], ([0], [0]))).status), 0)
+
+    def test_shapely(self):
+        shapely = module("shapely")
+        if not shapely or not hasattr(shapely, "to_ragged_array"):
+            self.skipTest("there is no Shapely 2")
+        _, xy, offsets = shapely.to_ragged_array([shapely.Polygon(SQUARE, [HOLE])])
+        self.assertEqual(list(sunder.from_ragged(xy, offsets).areas()), [15.0])
+
+
 class Cases(unittest.TestCase):
     """The exact cases of ../shared."""
 
@@ -197,8 +232,12 @@ class Errors(unittest.TestCase):
                 self.assertRaisesRegex(ValueError, what, sunder.minkowski_sum, geometry, SQUARE)
         self.assertRaisesRegex(ValueError, "a: polygon 0, ring 0.*crosses", sunder.minkowski_sum, bow, SQUARE,
                                invalid="fail")
-        with self.assertWarnsRegex(sunder.InvalidGeometryWarning, "^a: polygon 0.*even-odd"):
+        with self.assertWarnsRegex(sunder.InvalidGeometryWarning, "^a: polygon 0.*even-odd") as told:
             repaired = sunder.minkowski_sum(bow, TRIANGLE)
+        self.assertEqual(told.filename, __file__)
+        with self.assertWarns(sunder.InvalidGeometryWarning) as told:
+            sunder.separate([bow])
+        self.assertEqual(told.filename, __file__)
         self.assertEqual(repaired.polygons, sunder.minkowski_sum(
             {"type": "MultiPolygon", "coordinates": [[[(0, 0), (1, 1), (0, 2)]], [[(2, 0), (2, 2), (1, 1)]]]},
             TRIANGLE).polygons)

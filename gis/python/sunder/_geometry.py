@@ -5,6 +5,7 @@ Shapely if an operand was one, else `Geometry`, which Shapely, GeoPandas, Fiona 
 `__geo_interface__`.
 """
 import struct
+import sys
 import warnings
 from fractions import Fraction
 
@@ -98,11 +99,19 @@ def make(wkb, like):
     return Geometry(wkb)
 
 
+def warn(message, category=UserWarning):
+    """Warns at the line that called the package."""
+    level, frame = 1, sys._getframe()  # pylint: disable=protected-access
+    while frame is not None and frame.f_globals.get("__name__", "").partition(".")[0] == "sunder":
+        level, frame = level + 1, frame.f_back
+    warnings.warn(message, category, stacklevel=level)
+
+
 def _warn(made, who, numbered):
     for number, reason, skipped in made.invalid():
         name = f"{who} {number}" if numbered else who
         what = "skipped" if skipped else "read as the region that its rings enclose by the even-odd rule"
-        warnings.warn(f"{name}: {reason}; {what}", InvalidGeometryWarning, stacklevel=4)
+        warn(f"{name}: {reason}; {what}", InvalidGeometryWarning)
     return made
 
 
@@ -118,6 +127,43 @@ def shapes(geometries, who="geometry", invalid="repair"):
     if isinstance(geometries, _sunder.Shapes):
         return geometries
     return _warn(_sunder.read_all(column_of(geometries), who, invalid), who, True)
+
+
+def from_ragged(coordinates, offsets, *, invalid="repair"):
+    """Polygons as arrays, in the form of GeoArrow and of `shapely.to_ragged_array()`.
+
+    Args:
+        coordinates: (n, 2) float64, x and y of all vertices; more columns are ignored.
+        offsets: (ring offsets, polygon offsets) for polygons, with (..., geometry offsets) for multipolygons; integers,
+            each array beginning with 0 and having one value more than there are items.
+        invalid: as in `minkowski_sum`.
+    Returns: `Shapes`, which every function takes in place of a sequence of geometries, or of one if it has one item.
+    Raises: ValueError that names the array and the place in it, or the geometry.
+
+    >>> import array
+    >>> xy = memoryview(array.array("d", [0, 0, 2, 0, 0, 2, 5, 5, 6, 5, 6, 6])).cast("B").cast("d", [6, 2])
+    >>> two = from_ragged(xy, ([0, 3, 6], [0, 1, 2]))
+    >>> len(two), list(two.areas())
+    (2, [2.0, 0.5])
+    """
+    offsets = tuple(offsets)
+    if len(offsets) not in (2, 3):
+        raise ValueError(f"offsets: {len(offsets)} arrays; two are needed for polygons, three for multipolygons")
+    made = _sunder.read_ragged(coordinates, *offsets, *([None] * (3 - len(offsets))), "geometry", invalid)
+    return _warn(made, "geometry", True)
+
+
+def to_ragged(geometries, *, invalid="repair"):
+    """The polygons of geometries as arrays: (coordinates, (ring offsets, polygon offsets, geometry offsets)).
+
+    Rings are those that were given, closed. Arrays are of NumPy if it is installed, else memoryviews.
+
+    >>> xy, offsets = to_ragged([[(0, 0), (2, 0), (0, 2)], None])
+    >>> xy.tolist(), [one.tolist() for one in offsets]
+    ([[0.0, 0.0], [2.0, 0.0], [0.0, 2.0], [0.0, 0.0]], [[0, 4], [0, 1], [0, 1, 1]])
+    """
+    coordinates, *offsets = shapes(geometries, invalid=invalid).ragged()
+    return array(coordinates), tuple(map(array, offsets))
 
 
 def column_of(geometries):

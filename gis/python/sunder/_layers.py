@@ -1,12 +1,11 @@
 """Whole layers: features are moved apart, or checked for overlaps and gaps."""
 import math
-import warnings
 from collections import Counter
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from sunder import _sunder
-from sunder._geometry import Geometry, array, column_of, is_shapely, shape, shapes
+from sunder._geometry import Geometry, array, column_of, is_shapely, shape, shapes, warn
 
 #: The words for `Result.status`.
 STATUSES = ("unmoved", "moved", "fixed", "blocked", "skipped", "hidden")
@@ -66,7 +65,8 @@ class Barrier:
 class Result:
     """What `separate` found. Arrays have a value for each feature, in order; they are of NumPy if it is installed."""
 
-    geometries: Any  #: the moved geometries: a GeoSeries if one came in, else a list; unmoved ones are the same objects
+    #: The moved geometries: a GeoSeries or Shapes if such came in, else a list; unmoved ones are the same objects.
+    geometries: Any
     frame: Any  #: the GeoDataFrame with moved geometries and the columns of the program, if one came in; else None
     dx: Any  #: (n,) float64
     dy: Any  #: (n,) float64
@@ -191,8 +191,8 @@ class _Call:
         wanted = _POINTS if self.points else _POLYGONS
         others = sum(content not in (_NOTHING, wanted) for content in self.shapes.contents())
         if others:
-            warnings.warn(f"{others} features are not {'points' if self.points else 'polygons'}; they stay as they are "
-                          "and conflict with nothing", stacklevel=4)
+            warn(f"{others} features are not {'points' if self.points else 'polygons'}; they stay as they are and "
+                 "conflict with nothing")
 
     def _place(self, symbol, invalid):
         """Puts the symbol at each point; the point is the anchor for sides of barriers."""
@@ -400,8 +400,9 @@ def _result(call, found):
     moves, summary = found["moves"], found["summary"]
     status = [STATUSES[code] for code in found["statuses"]]
     pairs = moves.tolist()
-    geometries = None
-    if not isinstance(call.items, _sunder.Shapes):
+    if isinstance(call.items, _sunder.Shapes):
+        geometries = call.items.moved(moves)
+    else:
         geometries = _moved(call, pairs)
     frame = None
     view = array(moves)
