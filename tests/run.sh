@@ -37,6 +37,7 @@ setup_want "GDAL's Python module" python3-gdal /usr/bin/python3 -c "import osgeo
 if [ "$all" ]; then
     setup_want "clang with sanitizers, for the fuzz tests" "clang libclang-rt-dev" setup_has_fuzzer
     setup_want "a compiler for s390x and its emulator" "gcc-s390x-linux-gnu libc6-dev-s390x-cross qemu-user" qemu-s390x --version
+    setup_want "Python's debug build" python3-dbg test -x /usr/bin/python3-dbg
     setup_want "pandoc" pandoc pandoc --version
     setup_want "Doxygen" doxygen doxygen --version
     setup_want "QGIS's Python module" "qgis python3-qgis" /usr/bin/python3 -c "import qgis.core"

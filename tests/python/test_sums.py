@@ -136,6 +136,27 @@ class Cases(unittest.TestCase):
             with self.subTest(name):
                 self.check(p, q, expected)
 
+    def test_batch(self):
+        """All of them as no-fit polygons in one call, and turned by a right angle and by 3 + 4 i over 5."""
+        found = list(cases())
+        if not found:
+            self.skipTest(f"{SHARED}/cases is not there")
+        parts = [part for _, p, q, _ in found for part in (p, minus(q))]
+        turns = [(1, 0, 1), (0, 1, 1), (3, 4, 5)]
+        pairs = [(2 * k, 2 * k + 1, r, r) for k in range(len(found)) for r in range(3)]
+        made = sunder.no_fit_polygons(parts, pairs, turns, exact=True, threads=2)
+        for k, (name, _, _, expected) in enumerate(found):
+            for r, (c, s, scale) in enumerate(turns):
+                with self.subTest(name, rotation=r):
+                    one = made[3 * k + r]
+                    if one.rounded:  # its coordinates are too long to be turned exactly
+                        self.assertEqual(r, 2)
+                        continue
+                    back = [((c * x + s * y) / scale, (c * y - s * x) / scale) for x, y in one.degenerate_points]
+                    self.assertEqual(one.area, Fraction(expected["area"]))
+                    self.assertEqual(sorted(back), sorted(pair(point) for point in expected["points"]))
+                    self.assertEqual(len(one.degenerate_segments), len(expected["segments"]))
+
     def check(self, p, q, expected):
         total = sunder.minkowski_sum(p, q, exact=True)
         self.assertEqual(total.area, Fraction(expected["area"]))
