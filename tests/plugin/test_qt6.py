@@ -10,7 +10,7 @@ import unittest
 FOLDER = os.path.join(os.environ["SUNDER_SOURCE"], "gis", "qgis", "sunder")
 FILES = sorted(glob.glob(os.path.join(FOLDER, "*.py")))
 # Members of classes of Qt and QGIS that are not enumerators, or that have the same spelling in both.
-PLAIN = {"QgsProcessing.TEMPORARY_OUTPUT"}
+PLAIN = {"QgsProcessingContext.LayerDetails", "QgsProcessing.TEMPORARY_OUTPUT"}
 GONE = {"QRegExp", "QDesktopWidget", "qApp", "exec_", "desktop", "MidButton", "TextColorRole", "BackgroundColorRole",
         "HighQualityAntialiasing", "resources_rc"}
 

@@ -17,10 +17,10 @@ import unittest
 sys.path[:0] = ["/usr/share/qgis/python/plugins", os.path.join(os.environ["SUNDER_SOURCE"], "gis", "qgis")]
 
 from osgeo import ogr  # noqa: E402
-from qgis.core import (QgsApplication, QgsCoordinateReferenceSystem, QgsExpression, QgsFeature, QgsFeatureRenderer,  # noqa: E402
+from qgis.core import (QgsApplication, QgsCategorizedSymbolRenderer, QgsCoordinateReferenceSystem, QgsExpression, QgsFeature, QgsFeatureRenderer,  # noqa: E402
                        QgsFeatureRequest, QgsGeometry, QgsProcessingContext,
                        QgsProcessingException, QgsProcessingFeatureSourceDefinition, QgsProcessingFeedback,
-                       QgsProcessingOutputLayerDefinition, QgsProject, QgsVectorLayer, QgsWkbTypes)
+                       QgsProcessingOutputLayerDefinition, QgsProject, QgsRendererCategory, QgsVectorLayer, QgsWkbTypes)
 from qgis.PyQt.QtCore import QByteArray, QDate, QDateTime, QTime  # noqa: E402
 
 SUNDER = os.environ["SUNDER"]
@@ -124,6 +124,97 @@ class Case(unittest.TestCase):
         self.sunder("separate", "--input-layer=buildings", TOWN, written, "--quiet", "--overwrite", "--allow-conflicts",
                     *words)
         return written
+
+
+class SheetTest(Case):
+    """A specification in place of a layer, and one that is written from layers of the project."""
+
+    def sheet(self):
+        self.points = self.file("points.gpkg")
+        subprocess.run(["ogr2ogr", self.points, TOWN, "-nln", "points", "-dialect", "SQLite", "-sql",
+                        "SELECT fid AS house, ST_PointOnSurface(geom) AS geom FROM buildings WHERE fid < 40"], check=True)
+        path = self.file("sheet.json")
+        with open(path, "w", encoding="utf-8") as file:
+            json.dump({"defaults": {"max_shift": 5}, "layers": [
+                {"name": "houses", "source": TOWN, "layer": "buildings", "role": "move"},
+                {"name": "marks", "source": "points.gpkg", "role": "move", "symbol": "square:2", "max_shift": 20},
+                {"name": "roads", "source": TOWN, "layer": "roads", "role": "barrier", "width": 5},
+                {"name": "along", "source": "points.gpkg", "role": "follow", "of": "houses"}],
+                "gaps": [{"between": ["*", "*"], "gap": 2}]}, file)
+        return path
+
+    def test_separate_and_check(self):
+        sheet, written, theirs = self.sheet(), self.file("sheet.gpkg"), self.file("theirs.gpkg")
+        done = self.run_algorithm("separate", {"SPEC": sheet, "SHEET": written, "OUTPUT": TEMPORARY, "CONFLICTS": TEMPORARY})
+        self.sunder("separate", "--spec=" + sheet, theirs, "--quiet", "--allow-conflicts")
+        names = [layer.GetName() for layer in ogr.Open(theirs)]
+        self.assertEqual([layer.GetName() for layer in ogr.Open(written)], names)
+        for name in ("houses", "marks", "along", "marks_symbols", "sheet_conflicts"):
+            self.assertIn(name, names)
+            self.assertEqual(rows(written, name), rows(theirs, name), name)
+        self.assertEqual(done["SHEET"], written)
+        self.assertGreater(done["MOVED"], 20)
+        loads = self.context.layersToLoadOnCompletion()
+        self.assertEqual({each.split("layername=")[1] for each in loads}, set(names) - {"layer_styles"})
+        # The check of the result, and of what the sheet names as it stands.
+        layer = QgsVectorLayer(written + "|layername=houses", "Moved", "ogr")
+        left = self.run_algorithm("check", {"SPEC": sheet, "INPUT": layer, "OUTPUT": TEMPORARY})
+        self.assertEqual(left["FEATURES"], 280 + 39)
+        self.assertEqual(left["CONFLICTS"], done["CONFLICTS_AFTER"])
+        before = self.run_algorithm("check", {"SPEC": sheet, "OUTPUT": TEMPORARY})
+        self.assertEqual(before["CONFLICTS"], done["CONFLICTS_BEFORE"])
+        listed = [row for _, row in rows(self.source(before["OUTPUT"])).values() if row["reason"] != "same_block"]
+        self.assertEqual(len(listed), before["CONFLICTS"])
+
+    def test_the_dialog_goes_before_the_sheet(self):
+        sheet, written, theirs = self.sheet(), self.file("sheet.gpkg"), self.file("theirs.gpkg")
+        self.run_algorithm("separate", {"SPEC": sheet, "SHEET": written, "MAX_SHIFT": 1, "GAP": 1})
+        self.sunder("separate", "--spec=" + sheet, theirs, "--max-shift=1", "--gap=1", "--quiet", "--allow-conflicts")
+        self.assertEqual(rows(written, "houses"), rows(theirs, "houses"))
+
+    def test_what_is_refused(self):
+        sheet = self.sheet()
+        self.refused("leave the layer to separate empty", "separate", {"SPEC": sheet, "INPUT": self.town(), "SHEET": self.file("x.gpkg")})
+        self.refused("choose it at the end", "separate", {"SPEC": sheet})
+        self.refused("a layer or a specification is needed", "separate", {"GAP": 3})
+        self.refused("such a condition stands there", "separate", {"SPEC": sheet, "SHEET": self.file("x.gpkg"), "FIXED_WHERE": "fid = 3"})
+        with open(sheet, "w", encoding="utf-8") as file:
+            file.write('{"layers": []}')
+        self.refused("none has the role move", "separate", {"SPEC": sheet, "SHEET": self.file("x.gpkg")})
+
+    def test_one_is_written_from_the_project(self):
+        self.sheet()
+        houses, roads = self.town("fid > 5"), QgsVectorLayer(TOWN + "|layername=roads", "Big roads", "ogr")
+        marks, along = QgsVectorLayer(self.points, "marks", "ogr"), QgsVectorLayer(self.points, "marks", "ogr")
+        symbol, thin = roads.renderer().symbol().clone(), roads.renderer().symbol().clone()
+        symbol.setWidth(0.6)
+        thin.setWidth(0.4)
+        roads.setRenderer(QgsCategorizedSymbolRenderer("kind", [QgsRendererCategory("main_street", symbol, ""),
+                                                                QgsRendererCategory("", thin, "")]))
+        marks.renderer().symbol().setSize(0.5)
+        written = self.file("made.json")
+        self.run_algorithm("specification", {
+            "MOVING": [houses, marks], "BARRIERS": [roads], "FOLLOWING": [along], "SCALE": 10000, "GAP": "0.2mm",
+            "BARRIER_GAP": "0.1mm", "MAX_SHIFT": "0.5mm", "OUTPUT": written})
+        with open(written, encoding="utf-8") as file:
+            made = json.load(file)
+        self.assertEqual(made["scale"], "1:10000")
+        self.assertEqual(made["defaults"], {"max_shift": "0.5mm"})
+        self.assertEqual(made["layers"], [
+            {"name": "Houses", "source": os.path.realpath(TOWN), "layer": "buildings", "role": "move", "where": "fid > 5"},
+            {"name": "marks", "source": "points.gpkg", "layer": "points", "role": "move", "symbol": "square:0.5mm"},
+            {"name": "Big_roads", "source": os.path.realpath(TOWN), "layer": "roads", "role": "barrier",
+             "width": {"by": "kind", "of": {"main_street": "0.6mm"}, "else": "0.4mm"}},
+            {"name": "marks_2", "source": "points.gpkg", "layer": "points", "role": "follow"}])
+        self.assertEqual(made["gaps"], [{"between": ["*", "*"], "gap": "0.2mm"}, {"between": ["*", "Big_roads"], "gap": "0.1mm"}])
+        done = self.run_algorithm("separate", {"SPEC": written, "SHEET": self.file("made.gpkg")})
+        self.assertEqual(done["FEATURES"], 275 + 39)
+        self.assertEqual(len(rows(self.file("made.gpkg"), "marks_2")), 39)
+        # A mistake is found when it is written, and then there is no file.
+        self.refused("parsecs", "specification", {"MOVING": [houses], "SCALE": 10000, "GAP": "3 parsecs", "OUTPUT": self.file("no.json")})
+        self.assertFalse(os.path.exists(self.file("no.json")))
+        self.refused("names files", "specification", {"MOVING": [self.memory_copy(houses)], "SCALE": 10000, "OUTPUT": self.file("no.json")})
+        self.refused("lines do not move", "specification", {"MOVING": [roads], "SCALE": 10000, "OUTPUT": self.file("no.json")})
 
 
 class SeparateTest(Case):

@@ -24,7 +24,7 @@ town=$work/town.gpkg
 
 "$process" plugins enable sunder >log 2>&1 || { cat log; fail "the plug-in cannot be enabled"; }
 "$process" list >log 2>/dev/null
-for command in separate check buffer sum pair route; do
+for command in separate check specification buffer sum pair route; do
     grep -q "sunder:$command" log || fail "sunder:$command is not in the list"
 done
 

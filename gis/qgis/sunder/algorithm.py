@@ -46,6 +46,7 @@ class Algorithm(QgsProcessingAlgorithm):
     group_name = "Layers"
     inputs, outputs, files, numbers = (), (), (LOG,), ()  # numbers: name and label of each figure of figures()
     movable = False              # whether the dialog can restrict the moves to selected features
+    of_sheet = False             # whether a specification may take the place of the layer
 
     # ---- What Processing asks ----
 
@@ -94,7 +95,7 @@ class Algorithm(QgsProcessingAlgorithm):
     def initAlgorithm(self, configuration=None):
         for each in self.inputs:
             self._add(QgsProcessingParameterFeatureSource(each.name, each.label, list(each.types),
-                                                          optional=each.shape is not None))
+                                                          optional=each.shape is not None or self.of_sheet))
             if each.shape:
                 self._add(QgsProcessingParameterString(each.shape, each.shape_label, optional=True))
         if self.movable:
@@ -131,6 +132,8 @@ class Algorithm(QgsProcessingAlgorithm):
             if each.shape and not parameters.get(each.name) and not parameters.get(each.shape):
                 return False, "%s: a layer or a shape is needed." % each.label
         first = parameters.get(self.inputs[0].name)
+        if self.of_sheet and not first and not parameters.get("SPEC"):
+            return False, "%s: a layer or a specification is needed." % self.inputs[0].label
         if self.movable and self.parameterAsBoolean(parameters, "MOVE_SELECTED", context) and \
                 isinstance(first, QgsProcessingFeatureSourceDefinition) and first.selectedFeaturesOnly:
             return False, ("Move only selected features: then the layer must be given as a whole; take away the mark "
@@ -192,6 +195,8 @@ class Algorithm(QgsProcessingAlgorithm):
         elif option.kind == EXPRESSION:
             # parameterAsExpression() drops an expression that has an error.
             text = self.parameterAsString(parameters, name, context)
+            if text and self.sources[self.inputs[0].name] is None:
+                raise BadValue("%s: with a specification such a condition stands there." % option.label)
             if text:
                 asked = self.createExpressionContext(parameters, context)
                 asked.setFields(self.sources[self.inputs[0].name].fields)
@@ -248,10 +253,15 @@ class Algorithm(QgsProcessingAlgorithm):
         operands = self._operands(os.path.join(folder, "read"), QgsProcessingMultiStepFeedback(10, feedback))
         if feedback.isCanceled():
             return {}
+        sheet = self.values.get("SPEC")
         written, figures = os.path.join(folder, "sunder.gpkg"), os.path.join(folder, "figures.json")
+        if sheet:
+            written = self._sheet_place(written, parameters, context)
         line = [self.sunder, self.command] + words(self.command, self.values) + operands
-        line += [written, "--output-layer=" + self.main, "--stats=" + figures, "--progress=plain"]
-        line += self._words_of_outputs(self.wanted) + self._words_of_files(parameters, context)
+        line += self._words_of_sheet(written) if sheet else [written, "--output-layer=" + self.main]
+        line += ["--stats=" + figures, "--progress=plain"]
+        line += [] if sheet else self._words_of_outputs(self.wanted)
+        line += self._words_of_files(parameters, context)
         feedback.pushCommandInfo(" ".join(_quoted(word) for word in line))
         begin = 10 * min(self.copies, 2)
         said = []
@@ -264,6 +274,8 @@ class Algorithm(QgsProcessingAlgorithm):
         self._tell(told, status, feedback)
         self.look(written)
         results = self._deliver(written, parameters, context, feedback)
+        if sheet:
+            results.update(self._deliver_sheet(written, context))
         numbers = program.statistics(figures)
         if status == program.UNRESOLVED:
             feedback.pushWarning(self.unresolved(numbers))
@@ -285,7 +297,9 @@ class Algorithm(QgsProcessingAlgorithm):
         found = []
         for each in self.inputs:
             layer = self.sources[each.name]
-            if layer is None:
+            if self.values.get("SPEC"):
+                found += [_dataset(layer)] if layer else []
+            elif layer is None:
                 found.append(self.shapes[each.name])
             elif each is self.inputs[0] and len(self.inputs) == 1:
                 found += self._first(layer, folder, feedback)
@@ -293,7 +307,9 @@ class Algorithm(QgsProcessingAlgorithm):
                 path, _ = self._copied(layer, folder, each.name, feedback)
                 found.append(path)
         for option in options.of_command(self.command):
-            if option.kind == SOURCE and self.sources[option.name]:
+            if option.kind == SOURCE and self.sources[option.name] and self.values.get("SPEC"):
+                found.append("%s=%s" % (option.flag, _dataset(self.sources[option.name])))
+            elif option.kind == SOURCE and self.sources[option.name]:
                 path, _ = self._copied(self.sources[option.name], folder, option.name, feedback)
                 found.append("%s=%s" % (option.flag, path))
         for row, layer, by_field in self.barriers:
@@ -412,6 +428,19 @@ class Algorithm(QgsProcessingAlgorithm):
             QDesktopServices.openUrl(QUrl.fromLocalFile(self.report))
         return {}
 
+    # ---- With a specification: its layers are in one dataset, under their own names ----
+
+    def _sheet_place(self, written, parameters, context):
+        """Returns the path of the dataset that the program writes; `written` is the one in the temporary folder."""
+        return written
+
+    def _words_of_sheet(self, written):
+        return ["--output=" + written, "--output-layer=" + self.main]
+
+    def _deliver_sheet(self, written, context):
+        """Delivers what the outputs of the dialog do not have."""
+        return {}
+
     # ---- What an algorithm may say for itself ----
 
     def look(self, written):
@@ -429,6 +458,14 @@ class Algorithm(QgsProcessingAlgorithm):
 def table_of(name):
     """Returns the name of a layer, changed to a name of a table that needs no quotes."""
     return re.sub(r"\W+", "_", name).strip("_") or "layer"
+
+
+def _dataset(layer):
+    """Returns the path of the dataset that has the layer. The layers beside it are read, too, by the names that the
+    specification gives them."""
+    if not layer.path:
+        raise BadValue("%s: with a specification this has to be a layer of a file." % layer.name)
+    return layer.path
 
 
 def _quoted(word):

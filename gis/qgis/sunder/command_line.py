@@ -3,7 +3,7 @@
 A value is what QGIS passes: a number, the index of a choice, a truth value, the name of a field, or a text; None means
 that the dialog has no value. Numbers are written so that they read back as the same double.
 """
-from .options import (BARRIER_LAYERS, BARRIER_LENGTH, BARRIERS, CHOICE, COUNT, EXPRESSION, FIELD, FLAG, LENGTH, NUMBER,
+from .options import (BARRIER_LAYERS, BARRIER_LENGTH, BARRIERS, CHOICE, COUNT, EXPRESSION, FIELD, FILE, FLAG, LENGTH, NUMBER,
                       NUMERIC_FIELD, POINT, SCALE, SOURCE, TEXT, UNIT, UNITS, of_command)
 
 BARRIER_COLUMNS = ("Layer", "Width or field", "Gap", "Least gap", "Filter", "Side (yes/no)", "As (area/boundary)")
@@ -41,7 +41,7 @@ def _words_of(option, value, values):
         return ["%s=%s" % (option.flag, number(value))]
     if option.kind == POINT:
         return ["%s=%s,%s" % (option.flag, number(value[0]), number(value[1]))]
-    assert option.kind in (FIELD, NUMERIC_FIELD, EXPRESSION, TEXT, BARRIERS, SOURCE), option
+    assert option.kind in (FIELD, NUMERIC_FIELD, EXPRESSION, TEXT, BARRIERS, SOURCE, FILE), option
     many = value if option.kind == BARRIERS else [value]
     return ["%s=%s" % (option.flag, each) for each in many]
 

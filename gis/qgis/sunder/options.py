@@ -9,7 +9,7 @@ from collections import namedtuple
 
 LENGTH, NUMBER, COUNT, SCALE, FLAG, CHOICE = "length", "number", "count", "scale", "flag", "choice"
 FIELD, NUMERIC_FIELD, EXPRESSION, TEXT, POINT = "field", "numeric field", "expression", "text", "point"
-BARRIERS, SOURCE = "barriers", "source"
+BARRIERS, SOURCE, FILE = "barriers", "source", "file"
 BARRIER_LAYERS, BARRIER_LENGTH = "layers as barriers", "length of the layers as barriers"
 
 LAYERS = ("separate", "check")
@@ -55,6 +55,9 @@ OPTIONS = (
     Option("--from", POINT, ("route",), "Start", "The start of the robot's reference point.", advanced=False,
            needed=True),
     Option("--to", POINT, ("route",), "Goal", "The destination of the robot's reference point.", advanced=False, needed=True),
+    Option("--spec", FILE, LAYERS, "Specification of a sheet (JSON), which has layers and rules",
+           "A file with the layers of a map, their rules, and the gaps between their classes, such as \"Write a specification\" makes. "
+           "What is set in this dialog goes before it.", advanced=False),
     Option("--before", SOURCE, ("check",), "The layer before it was moved",
            "Also lists moves that break a rule: conflicts that got worse, and features that moved too far, crossed a barrier, "
            "jumped, or changed their shape. Features are matched by the key field, otherwise by FID.", advanced=False),
@@ -204,7 +207,7 @@ LOG_LABEL = "Log of all errors and warnings"
 NOUNS = {
     "--gap": "gap", "--least-gap": "least gap", "--shape": "shape", "--operation": "operation",
     "--dissolve": "dissolving", "--robot": "robot",
-    "--from": "start", "--to": "goal", "--before": "layer before the moves", "--reflect": "reflection",
+    "--from": "start", "--to": "goal", "--before": "layer before the moves", "--spec": "specification", "--reflect": "reflection",
     "--barrier": "barrier", "--max-shift": "longest move", "--scale": "scale", "--max-shift-field": "field of the longest moves",
     "--weight": "cost of a move", "--weight-field": "field of the weights",
     "--fixed-where": "expression for features that never move", "--ignore-where": "expression for ignored features",
@@ -255,7 +258,7 @@ LEFT_OUT = {
     "--exact": "a layer holds doubles; rationals are for the shell",
     "--allow-conflicts": "what remains is told as a warning, not as a failure",
     "--shard": _SHARDS,
-    "--spec": "a sheet names its own layers: for the shell", "--print-spec": "a sheet names its own layers: for the shell",
+    "--print-spec": "the page of the report has the specification",
     "--progress": _OURS, "--max-memory": "layers that memory does not hold are for the shell", "--quiet": _OURS, "--stats": _OURS, "--report": "an output", "--proof": "an output",
     "--trace": "for developers, in a shell", "--log": "an output", "--messages": _OURS, "--help": "the panel beside the dialog",
 }

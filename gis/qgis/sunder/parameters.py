@@ -2,12 +2,13 @@
 values of layers, expressions and barriers."""
 from qgis.core import (QgsProcessing, QgsProcessingParameterBoolean, QgsProcessingParameterEnum,
                        QgsProcessingParameterDistance, QgsProcessingParameterExpression,
-                       QgsProcessingParameterFeatureSource, QgsProcessingParameterField, QgsProcessingParameterMatrix,
+                       QgsProcessingParameterFeatureSource, QgsProcessingParameterField,
+                       QgsProcessingParameterFile, QgsProcessingParameterMatrix,
                        QgsProcessingParameterMultipleLayers, QgsProcessingParameterNumber,
                        QgsProcessingParameterPoint, QgsProcessingParameterScale, QgsProcessingParameterString)
 
 from .command_line import BARRIER_COLUMNS
-from .options import (BARRIER_LAYERS, BARRIER_LENGTH, BARRIERS, CHOICE, COUNT, EXPRESSION, FIELD, FLAG, LENGTH, NUMBER,
+from .options import (BARRIER_LAYERS, BARRIER_LENGTH, BARRIERS, CHOICE, COUNT, EXPRESSION, FIELD, FILE, FLAG, LENGTH, NUMBER,
                       NUMERIC_FIELD, POINT, SCALE, SOURCE, TEXT)
 
 
@@ -41,6 +42,8 @@ def parameter(option, layer):
                                                     optional=True)
     if option.kind == BARRIERS:
         return QgsProcessingParameterMatrix(name, label, 1, False, list(BARRIER_COLUMNS), optional=True)
+    if option.kind == FILE:
+        return QgsProcessingParameterFile(name, label, optional=True, fileFilter="Specifications (*.json)")
     if option.kind == SOURCE:
         return QgsProcessingParameterFeatureSource(name, label, [QgsProcessing.SourceType.TypeVectorAnyGeometry],
                                                    optional=True)

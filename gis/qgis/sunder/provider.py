@@ -11,6 +11,7 @@ from .check import Check
 from .pair import Pair
 from .route import Route
 from .separate import Separate
+from .specification import Specification
 from .sum import Sum
 
 ICONS = os.path.join(os.path.dirname(__file__), "icons")
@@ -45,5 +46,5 @@ class SunderProvider(QgsProcessingProvider):
         ProcessingConfig.removeSetting(PROGRAM_SETTING)
 
     def loadAlgorithms(self):
-        for algorithm in (Separate, Check, Buffer, Sum, Pair, Route):
+        for algorithm in (Separate, Check, Specification, Buffer, Sum, Pair, Route):
             self.addAlgorithm(algorithm())

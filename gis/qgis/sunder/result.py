@@ -7,7 +7,8 @@ their doubles.
 import os
 
 from osgeo import ogr
-from qgis.core import (QgsFeatureRequest, QgsFeatureSink, QgsProcessing, QgsProcessingException,
+from qgis.core import (QgsFeatureRequest, QgsFeatureSink, QgsProcessing, QgsProcessingContext,
+                       QgsProcessingException,
                        QgsProcessingLayerPostProcessorInterface, QgsProcessingOutputLayerDefinition, QgsProcessingUtils,
                        QgsProperty, QgsVectorLayer)
 from qgis.PyQt.QtXml import QDomDocument
@@ -165,6 +166,20 @@ def deliver(path, name, value, destination, context, feedback):
             Styled.alive[final] = Styled(qml)
             context.layerToLoadOnCompletionDetails(final).setPostProcessor(Styled.alive[final])
     return final
+
+
+def load_all(path, context):
+    """Registers all layers of a GeoPackage of the program to be loaded, each with its style, if there is a project."""
+    if context.project() is None:
+        return
+    for name in reversed(layers_of(path)):
+        if name == "layer_styles":
+            continue
+        final, qml = "%s|layername=%s" % (path, name), style_of(path, name)
+        context.addLayerToLoadOnCompletion(final, QgsProcessingContext.LayerDetails(name, context.project(), name))
+        if qml:
+            Styled.alive[final] = Styled(qml)
+            context.layerToLoadOnCompletionDetails(final).setPostProcessor(Styled.alive[final])
 
 
 def rename(destination, label, title, context):

@@ -1,4 +1,6 @@
 """The algorithm sunder:separate, which runs `sunder separate`."""
+from qgis.core import QgsProcessingParameterFileDestination
+
 from . import program, result
 from .algorithm import ANY, LINES, LOG, POINTS, POLYGONS, Algorithm, File, Input, Output
 
@@ -12,10 +14,14 @@ Buildings, or symbols of points, keep their shape and are only moved. Roads and 
 result is checked exactly on the coordinates as written, and comes with a proved lower bound of the cost.
 
 Layers: the features, moved, with their attributes; the moves as lines; the conflicts that remain, each with its
-reason; the contact forces; rows of houses that were found; for points their symbols; features that are left out, and why. The report is a page for the browser: the map before and
-after."""
+reason; the contact forces; rows of houses that were found; for points their symbols; features that are left out, and
+why. The report is a page for the browser: the map before and after.
+
+A specification has layers that move together, layers that go along, barriers, and gaps between their classes. Then all
+layers are written to one GeoPackage, under their own names."""
     main = "separated"
     movable = True
+    of_sheet = True
     inputs = (Input("INPUT", "Layer to separate", (POLYGONS, POINTS), None, None),)
     outputs = (
         Output("OUTPUT", "", "Separated", ANY, True, None),
@@ -36,6 +42,28 @@ after."""
                ("CONFLICTS_STAYING", "Conflicts that remain between features that may not move"),
                ("TOTAL", "Sum of moves"), ("LONGEST", "Longest move"),
                ("COST", "Cost"), ("LOWER_BOUND", "Proved lower bound of the cost"))
+
+    def initAlgorithm(self, configuration=None):
+        super().initAlgorithm(configuration)
+        self._add(QgsProcessingParameterFileDestination("SHEET", "With a specification: all layers of the sheet",
+                                                        "GeoPackages (*.gpkg)", optional=True, createByDefault=False))
+
+    def checkParameterValues(self, parameters, context):
+        if parameters.get("SPEC") and parameters.get(self.inputs[0].name):
+            return False, "The specification names the layers: leave the layer to separate empty."
+        if parameters.get("SPEC") and not self._is_wanted(parameters, "SHEET"):
+            return False, "With a specification all layers are written to one GeoPackage: choose it at the end."
+        return super().checkParameterValues(parameters, context)
+
+    def _sheet_place(self, written, parameters, context):
+        return self.parameterAsFileOutput(parameters, "SHEET", context)
+
+    def _words_of_sheet(self, written):
+        return [written, "--overwrite"]
+
+    def _deliver_sheet(self, written, context):
+        result.load_all(written, context)
+        return {"SHEET": written}
 
     def _words_of_outputs(self, wanted):
         # The main layer is always written, since the program checks its result as written there.
