@@ -332,6 +332,7 @@ int gis_command_check(const gis_options *options)
     sunder_report_free(run.report);
     gis_moves_clear(&run.moves);
     free(run.original.with);
+    free(run.original.alone);
     gis_legible_clear(&run.legible);
     gis_layer_input_clear(&run.input);
     gis_layer_input_request_clear(&run.request);

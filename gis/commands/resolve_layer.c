@@ -229,7 +229,7 @@ static void resolve_original_of(const gis_options *options, const gis_layer_inpu
                                 gis_layer_input_request *out)
 {
     *out = *now;
-    out->with = NULL;
+    out->with = out->alone = NULL;
     out->more = 0;
     out->source = (gis_source_request){.path = original_path(options),
                                        .where = now->source.where,
@@ -252,8 +252,10 @@ bool gis_resolve_original(const gis_options *options, const gis_layer_input_requ
 {
     resolve_original_of(options, now, now->more ? now->name : name, out);
     if (now->more == 0) return true;
+    out->alone = malloc(sizeof *out->alone);
     out->with = calloc(now->more, sizeof *out->with);
-    if (!out->with) return gis_no_memory(error);
+    if (!out->alone || !out->with) return gis_no_memory(error);
+    resolve_original_of(options, now->alone, now->name, out->alone);
     for (; out->more < now->more; out->more++)
         resolve_original_of(&options->more[out->more], &now->with[out->more], now->with[out->more].name,
                             &out->with[out->more]);
@@ -313,12 +315,16 @@ static bool resolve_one(const gis_options *options, gis_layer_input_request *out
 /* Refuses what is of one layer alone. */
 static bool check_together(const gis_options *options, gis_error *error)
 {
-    static const gis_option_id not_with[] = {OPT_PROOF,   OPT_MAX_MEMORY,  OPT_TRIM,        OPT_INSET,
-                                             OPT_ENLARGE, OPT_SYMBOL_SIZE, OPT_HIDDEN_FIELD};
+    static const gis_option_id not_with[] = {OPT_PROOF, OPT_MAX_MEMORY, OPT_ENLARGE, OPT_HIDDEN_FIELD},
+                               not_checked[] = {OPT_TRIM, OPT_INSET, OPT_SYMBOL_SIZE};
     for (size_t k = 0; k < sizeof not_with / sizeof *not_with; k++)
         if (options->given[not_with[k]])
             return gis_fail_usage(error, "--spec: not with several layers that move: %s",
                                   gis_option_table[not_with[k]].names);
+    for (size_t k = 0; k < sizeof not_checked / sizeof *not_checked && options->command->bit == GIS_CHECK; k++)
+        if (options->given[not_checked[k]])
+            return gis_fail_usage(error, "--spec: --before: not with several layers that move: %s",
+                                  gis_option_table[not_checked[k]].names);
     if (rows_field_of(options))
         return gis_fail_usage(error, "--spec: with several layers that move rows are auto or no");
     return options->command->bit != GIS_PLAN ||
@@ -336,23 +342,36 @@ static void set_traits(gis_layer_rules *rules, bool points)
     rules->never_hidden = !rules->hide;
 }
 
+/* Adds the other shapes that one of the layers may have. */
+static void unite_shapes(const gis_layer_rules *with, gis_layer_rules *rules)
+{
+    rules->trim = rules->trim || with->trim;
+    if (!rules->inset) rules->inset = with->inset;
+    if (!rules->symbol_size.text) rules->symbol_size = with->symbol_size;
+}
+
 /* Sets what the core's options are for all layers together; `out` is the request for the first one. Rows are found if
  * one layer has rows, and so on. */
-static void unite_rules(gis_layer_input_request *out)
+static bool unite_rules(gis_layer_input_request *out, gis_error *error)
 {
     gis_layer_rules *rules = &out->rules;
     const gis_layer_input_request *polygons = has_symbols(out) ? NULL : out;
     set_traits(rules, has_symbols(out));
+    out->alone = malloc(sizeof *out->alone);
+    if (!out->alone) return gis_no_memory(error);
+    *out->alone = *out;
     for (size_t k = 0; k < out->more; k++) {
         gis_layer_input_request *with = &out->with[k];
         set_traits(&with->rules, has_symbols(with));
         if (!polygons && !has_symbols(with)) polygons = with;
         if (with->rules.core.rows) rules->core.rows = SUNDER_ROWS_FOUND;
-        if (with->rules.hide && !rules->hide) rules->crossed = with->rules.crossed;
+        if (!rules->hide && !gis_levels_asked(rules)) rules->crossed = with->rules.crossed;
         rules->hide = rules->hide || with->rules.hide;
+        unite_shapes(&with->rules, rules);
     }
     rules->core.no_blocks = rules->core.allow_jumps = false;
     if (polygons) rules->core.contained = polygons->rules.core.contained;
+    return true;
 }
 
 bool gis_resolve_layer(const gis_options *options, gis_layer_input_request *out, gis_error *error)
@@ -368,6 +387,5 @@ bool gis_resolve_layer(const gis_options *options, gis_layer_input_request *out,
             return false;
     }
     out->title = options->sheet_name;
-    unite_rules(out);
-    return true;
+    return unite_rules(out, error);
 }

@@ -127,7 +127,7 @@ static bool join_layers(const gis_layer_input_request *request, gis_layer_input 
     *out = (gis_layer_input){.request = request, .part = calloc(request->more + 1, sizeof *out->part)};
     if (!out->part) return gis_no_memory(error);
     for (size_t k = 0; k <= request->more; k++)
-        if (!read_part(out, k ? &request->with[k - 1] : request, error)) return false;
+        if (!read_part(out, k ? &request->with[k - 1] : request->alone, error)) return false;
     take_common(out);
     take_class_tables(out);
     return join_features(out, error) && gis_layer_complete(out, error);

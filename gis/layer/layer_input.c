@@ -386,7 +386,8 @@ void gis_layer_input_request_clear(gis_layer_input_request *request)
     gis_links_request_clear(&request->links);
     for (size_t k = 0; k < request->more; k++) gis_layer_input_request_clear(&request->with[k]);
     free(request->with);
-    request->with = NULL;
+    free(request->alone);
+    request->with = request->alone = NULL;
     request->more = 0;
     request->barrier = NULL;
     request->barriers = 0;

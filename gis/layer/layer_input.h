@@ -44,6 +44,9 @@ typedef struct gis_layer_input_request {
      * concerns the whole run is taken from this one. Owned. */
     struct gis_layer_input_request *with;
     size_t more;
+    /* With others: this one, with the rules of its features, while `rules` here are those of the run. Owned, but for
+     * what it has in common with this one. */
+    struct gis_layer_input_request *alone;
 } gis_layer_input_request;
 
 void gis_layer_input_request_clear(gis_layer_input_request *request);

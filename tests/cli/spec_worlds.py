@@ -4,6 +4,7 @@ sheet, with distances by GEOS.
 make TOWN.gpkg SHEET.json SEED [together]   writes houses, roads and points, and a sheet with gaps by classes; together:
                                             houses, sheds and points move, the points as squares
 make_agency TOWN.gpkg SEED               writes what docs/examples/topographic_100000.json asks for
+smaller RESULT.gpkg TOWN.gpkg SHEET.json asks that smaller shapes lie in those of before
 judge RESULT.gpkg TOWN.gpkg SHEET.json   prints four numbers: all pairs, the pairs that are too near, how many of them
                                          are listed, and all listed pairs; names each that is too near and not listed.
                                          A distance of two features that is close to their gap is decided in rationals.
@@ -245,6 +246,22 @@ def kept(result, town, path):
                 sys.exit(f"{layer['name']} {fid}: it moved too far")
             if after.wkb != affinity.translate(before, dx, dy).wkb:
                 sys.exit(f"{layer['name']} {fid}: it is no translate")
+
+
+def smaller(result, town, path):
+    """Every feature has its shape, moved, or a smaller one of at least the least size of its layer, within that shape."""
+    for layer in read_sheet(path)["layers"]:
+        if layer["role"] != "move":
+            continue
+        was = {fid: shape for fid, shape, _ in rows(town, layer["layer"])}
+        for fid, after, values in rows(result, layer["name"]):
+            home = affinity.translate(was[fid], values["sunder_dx"], values["sunder_dy"])
+            if values["sunder_lvl"] == 0 and after.wkb != home.wkb:
+                sys.exit(f"{layer['name']} {fid}: it is no translate")
+            if values["sunder_lvl"] and (after.difference(home).area > NEAR or not after.area < home.area):
+                sys.exit(f"{layer['name']} {fid}: its shape does not lie in that of before")
+            if values["sunder_lvl"] and not after.buffer(-layer.get("min_size", 0) / 2 * 0.99).area > 0:
+                sys.exit(f"{layer['name']} {fid}: no disc of the least size lies in it")
 
 
 if __name__ == "__main__":

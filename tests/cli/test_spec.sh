@@ -167,8 +167,8 @@ wrong 'two layers that move have the name houses' '.layers[2] = .layers[0]'
 wrong 'layers[2]: "name" is missing' '.layers[2] = .layers[0] | del(.layers[2].name)'
 wrong 'layers[2]: gap holds for all layers that move: put it into "defaults"' \
     '.layers[2] = .layers[0] | .layers[2].name = "more" | .layers[2].gap = 3'
-wrong 'not with several layers that move: --trim' \
-    '.layers[2] = .layers[0] | .layers[2].name = "more" | .layers[2].trim = true'
+wrong 'not with several layers that move: --enlarge' \
+    '.layers[2] = .layers[0] | .layers[2].name = "more" | .layers[2] += {enlarge: true, min_size: 3}'
 wrong 'layers[1]: "source" is missing' 'del(.layers[1].source)'
 wrong 'layers[1]: "role" must be' '.layers[1].role = "wall"'
 wrong 'no layer has the class road; did you mean roads?' '.gaps = [{"between": ["road", "*"], "gap": 1}]'
