@@ -6,7 +6,7 @@ make_root bookworm "$scratch/root"
 root=$scratch/root
 mkdir "$root/root/sunder"
 tar -C "$source" --exclude=./build --exclude=./.git -cf - . | tar -C "$root/root/sunder" -xf -
-sed -n '/^## Install/,/^## /p' "$source/gis/python/README.md" | sed -n '/^```sh$/,/^```$/p' | grep -v '^```' >"$root/root/commands.sh"
+sed -n '/^## Install/,/^Elsewhere/p' "$source/gis/python/README.md" | sed -n 's/^    //p' >"$root/root/commands.sh"
 [[ $(wc -l <"$root/root/commands.sh") == 2 ]] || { echo "the page does not have two commands"; exit 1; }
 cat >"$root/root/user.sh" <<'SH'
 cd /root/sunder
