@@ -7,6 +7,9 @@ import math
 import os
 import pkgutil
 import struct
+import subprocess
+import sys
+import tempfile
 import unittest
 from fractions import Fraction
 
@@ -122,6 +125,22 @@ class Ragged(unittest.TestCase):
             self.skipTest("there is no Shapely 2")
         _, xy, offsets = shapely.to_ragged_array([shapely.Polygon(SQUARE, [HOLE])])
         self.assertEqual(list(sunder.from_ragged(xy, offsets).areas()), [15.0])
+
+
+class Without(unittest.TestCase):
+    """The package needs neither NumPy nor Shapely."""
+
+    def test_without(self):
+        if os.environ.get("SUNDER_WITHOUT"):
+            self.skipTest("this is the run without them")
+        with tempfile.TemporaryDirectory() as folder:
+            for name in ("numpy", "shapely", "geopandas"):
+                with open(os.path.join(folder, name + ".py"), "w", encoding="ascii") as file:
+                    file.write("raise ImportError('not here')\n")
+            done = subprocess.run([sys.executable, __file__], capture_output=True, text=True, check=False, env={
+                **os.environ, "SUNDER_WITHOUT": "yes", "PYTHONPATH": folder + ":" + os.environ["PYTHONPATH"]})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stderr, "skipped=[3-9]")
 
 
 class Cases(unittest.TestCase):

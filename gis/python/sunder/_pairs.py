@@ -67,7 +67,7 @@ def least_translations(a, b, gap=0, *, invalid="repair", progress=None):
 
     >>> unit = [(0, 0), (1, 0), (1, 1), (0, 1)]
     >>> found = least_translations([unit], [unit, [(0.5, 0), (2, 0), (2, 1), (0.5, 1)]])
-    >>> [list(map(float, move)) for move in found.moves]
+    >>> found.moves.tolist()
     [[-1.0, 0.0], [0.5, 0.0]]
     """
     first, second = shapes(a, "a", invalid), shapes(b, "b", invalid)
